@@ -1,0 +1,341 @@
+/*
+ * wireskin - smooth surfaces through networks of space curves.
+ *
+ * You give curves in space with surface normals and say where the curves meet; you get one smooth
+ * triangle mesh that passes through them. The method is that of T. Stanko, S. Hahmann,
+ * G.-P. Bonneau, N. Saguin-Sprynski, "Surfacing Curve Networks with Normal Control", Computers and
+ * Graphics 60, 2016: cycles from oriented normals, a constrained Delaunay triangulation of every
+ * cycle in its plane, normals propagated from the curves, and a surface whose mean curvature follows
+ * them. Everything it needs is inside; it calls nothing but memcpy, memmove, memset, sqrt and, where
+ * you give no allocator, malloc and free.
+ *
+ * In one paragraph:
+ *
+ *     wsk_options options;
+ *     wsk_report report;
+ *     wsk_surface* surface = NULL;
+ *     wsk_surface_view view;
+ *     wsk_options_init(&options, sizeof options);
+ *     wsk_report_init(&report, sizeof report);
+ *     if (wsk_build(curves, curve_count, &options, &surface, &report) == WSK_OK) {
+ *         wsk_surface_get_view(surface, &view, sizeof view);
+ *         ... view.positions, view.triangles ...
+ *         wsk_surface_free(surface);
+ *     } else {
+ *         ... report.sentence, report.curve, report.sample ...
+ *     }
+ *
+ * Conventions, for every function below:
+ *
+ * - Lengths are in the units of your positions; angles in reports are in degrees, times in
+ *   milliseconds, sizes of memory in bytes. Indices are zero-based; WSK_NONE means "none".
+ * - Normals point to the outer side. Triangles run counter-clockwise seen from there.
+ * - Input arrays are read during the call and never kept or changed.
+ * - A call that fails leaves its outputs untouched and gives back all memory that it took. The only
+ *   thing a failed call writes is the report.
+ * - The library has no global state, prints nothing, reads no file, clock or locale. Calls may run
+ *   at the same time in different threads; one surface may be read by many threads at once.
+ * - The same input gives the same bits on every target, whatever the compiler, the optimisation
+ *   level or the byte order. Multiplying all input lengths by a power of two multiplies all output
+ *   lengths by exactly that.
+ * - Sizes: indices have 32 bits, so a mesh has fewer than 2^32 - 1 vertices and the matrix factors
+ *   fewer than 2^32 - 1 entries; beyond that the status is WSK_ERROR_TOO_LARGE.
+ *
+ * ABI: structs that may grow begin with their size, which the _init function writes; a library newer
+ * than the caller never touches bytes beyond it. Numbers of constants never change.
+ */
+#ifndef WIRESKIN_H
+#define WIRESKIN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define WIRESKIN_VERSION_MAJOR 0
+#define WIRESKIN_VERSION_MINOR 1
+#define WIRESKIN_VERSION_PATCH 0
+#define WIRESKIN_VERSION_STRING "0.1.0"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* "No index": the curve of a free vertex, the place of an error that has none. */
+#define WSK_NONE 0xffffffffu
+
+/* ---- Statuses --------------------------------------------------------------------------------- */
+
+typedef int32_t wsk_status;
+
+enum {
+  WSK_OK = 0,
+  /* A null pointer where none is allowed, an option or a count out of its range. */
+  WSK_ERROR_BAD_ARGUMENT = 1,
+  /* The allocator returned null. The same call may succeed later. */
+  WSK_ERROR_OUT_OF_MEMORY = 2,
+  /* The memory cap of the options would have been exceeded. */
+  WSK_ERROR_MEMORY_CAP = 3,
+  /* The cancel callback returned non-zero. */
+  WSK_ERROR_CANCELLED = 4,
+  /* The result or a matrix does not fit 32-bit indices or the address space; the spacing is too
+     small for the network. */
+  WSK_ERROR_TOO_LARGE = 5,
+  /* No curve, no vertex or no triangle was given. */
+  WSK_ERROR_EMPTY = 6,
+  /* A curve of fewer than two samples, or a closed one of fewer than three. */
+  WSK_ERROR_TOO_FEW_SAMPLES = 7,
+  /* A coordinate or a normal is NaN. */
+  WSK_ERROR_NOT_A_NUMBER = 8,
+  /* A coordinate or a normal is infinite, or the coordinates span more than a double can hold. */
+  WSK_ERROR_INFINITE = 9,
+  /* All samples of a curve are the same point. */
+  WSK_ERROR_ZERO_LENGTH_CURVE = 10,
+  /* Two neighbouring samples of a curve (or the last and the first of a closed one) coincide. */
+  WSK_ERROR_DUPLICATE_SAMPLES = 11,
+  /* A normal has zero length. Other lengths are fine: normals are made unit. */
+  WSK_ERROR_ZERO_NORMAL = 12,
+  /* The curves, or the constrained vertices, have no normals and the task needs them. */
+  WSK_ERROR_MISSING_NORMALS = 13,
+  /* A vertex index of a triangle is not below the number of vertices. */
+  WSK_ERROR_INDEX_OUT_OF_RANGE = 14,
+  /* Samples of the same node lie farther apart than 1e-9 of the diagonal of the bounding box. */
+  WSK_ERROR_NODE_MISMATCH = 15,
+  /* A curve ends where no other curve passes, so the network does not bound patches there. */
+  WSK_ERROR_OPEN_NETWORK = 16,
+  /* Normals turn by more than 120 degrees between neighbouring samples, oppose each other at a
+     node, or leave the order of the curves round a node undecided. */
+  WSK_ERROR_INCONSISTENT_NORMALS = 17,
+  /* The normal of a node is parallel to a curve through it: it cannot be the surface's. */
+  WSK_ERROR_TANGENT_NORMAL = 18,
+  /* A patch whose normals cancel out, or that is seen edge-on or from behind along their mean. */
+  WSK_ERROR_PATCH_WITHOUT_PLANE = 19,
+  /* The border of a patch crosses or touches itself when projected to the patch's plane. */
+  WSK_ERROR_PATCH_FOLDED = 20,
+  /* A patch bounded by several loops, or by a curve passed on both sides. */
+  WSK_ERROR_PATCH_SEVERAL_LOOPS = 21,
+  /* wsk_smooth_mesh: the triangles are no oriented manifold, or one of them has no area. */
+  WSK_ERROR_BAD_MESH = 22,
+  /* wsk_smooth_mesh: a connected component has no constrained vertex, or a vertex of an open border
+     is free. */
+  WSK_ERROR_UNCONSTRAINED = 23,
+  /* The linear system is not positive definite in double precision: the triangles are too thin. */
+  WSK_ERROR_NOT_POSITIVE_DEFINITE = 24
+};
+
+/* The name of a status as written above without its prefix, in lower case ("zero_normal"); "unknown"
+   for other numbers. Static text. */
+const char* wsk_status_name(wsk_status status);
+
+/* ---- Stages ----------------------------------------------------------------------------------- */
+
+typedef int32_t wsk_stage;
+
+enum {
+  WSK_STAGE_INPUT = 0,     /* checking and scaling what the caller gave */
+  WSK_STAGE_CURVES = 1,    /* splines, resampling */
+  WSK_STAGE_NETWORK = 2,   /* nodes, segments, cycles */
+  WSK_STAGE_PATCHES = 3,   /* planes, triangulation, one mesh of all patches */
+  WSK_STAGE_OPERATORS = 4, /* Laplacian, areas, system matrix, curvature */
+  WSK_STAGE_FACTOR = 5,    /* ordering and Cholesky factor */
+  WSK_STAGE_SOLVE = 6,     /* right-hand sides */
+  WSK_STAGE_RESULT = 7,    /* normals, curvature, checks, copying out */
+  WSK_STAGE_COUNT = 8
+};
+
+/* The name of a stage in lower case ("curves"); "unknown" for other numbers. Static text. */
+const char* wsk_stage_name(wsk_stage stage);
+
+/* ---- Options ---------------------------------------------------------------------------------- */
+
+typedef int32_t wsk_method;
+
+enum {
+  /* Stanko et al. 2016: normals and positions propagated biharmonically, then the positions whose
+     mean curvature vectors fit best those of the propagated normals. The default. */
+  WSK_METHOD_STANKO = 0,
+  /* Least square Laplacian of the positions; normals are not used for the shape. M. Botsch,
+     L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004, order 2. */
+  WSK_METHOD_BIHARMONIC = 1,
+  /* The same, order 3. */
+  WSK_METHOD_TRIHARMONIC = 2,
+  /* Biharmonic with the curvature vector prescribed on the curves: method (4) of Stanko et al., for
+     comparison. Erratic by nature. */
+  WSK_METHOD_CLAMPED = 3,
+  WSK_METHOD_COUNT = 4
+};
+
+/* `user` is the pointer given beside the callback. None of the callbacks may throw or jump out of
+   the library, nor call it with the same surface. */
+typedef struct wsk_options {
+  size_t size; /* set by wsk_options_init */
+
+  wsk_method method;
+  /* Distance between neighbouring vertices on the curves, in your units; 0 (the default): a
+     hundredth of the diagonal of the bounding box of all samples. Every stretch of curve between
+     two nodes is divided evenly, so distances differ a little from it. Ignored by
+     wsk_smooth_mesh. */
+  double spacing;
+
+  /* Memory: aligned for double and pointers, null on failure. `release` is told the size that was
+     asked for. Give both or none (malloc and free). The surface keeps them until it is freed. */
+  void* (*allocate)(size_t bytes, void* user);
+  void (*release)(void* memory, size_t bytes, void* user);
+  void* allocator_user;
+  /* The most memory the call may hold at any time, result included; 0: no cap. */
+  size_t memory_cap;
+
+  /* Asked often; non-zero ends the call with WSK_ERROR_CANCELLED. */
+  int32_t (*cancel)(void* user);
+  void* cancel_user;
+  /* Told the stage and how much of it is done (0 to 1). */
+  void (*progress)(wsk_stage stage, double fraction, void* user);
+  void* progress_user;
+  /* A clock in milliseconds from any origin, for the times in the report; without it they are 0. */
+  double (*now)(void* user);
+  void* now_user;
+} wsk_options;
+
+/* Writes the defaults into *options. `size` is sizeof(wsk_options) as the caller knows it. Does
+   nothing for a null pointer or a size smaller than that of this version's first release. */
+void wsk_options_init(wsk_options* options, size_t size);
+
+/* ---- Report ----------------------------------------------------------------------------------- */
+
+typedef struct wsk_report {
+  size_t size; /* set by wsk_report_init */
+
+  wsk_status status;
+  wsk_stage stage; /* where it failed; WSK_STAGE_RESULT after success */
+  /* One English sentence without a full stop, or ""; static text. The places that it speaks of
+     follow, WSK_NONE where there is none: indices into the caller's curves and samples, the caller's
+     node number, the patch, and for wsk_smooth_mesh the caller's vertex and triangle. */
+  const char* sentence;
+  uint32_t curve;
+  uint32_t sample;
+  uint32_t node;
+  uint32_t patch;
+  uint32_t vertex;
+  uint32_t triangle;
+
+  /* Counts, as far as the call came. */
+  uint32_t curves;
+  uint32_t nodes;
+  uint32_t segments; /* stretches of curve between nodes; a closed curve without node is one */
+  uint32_t patches;
+  uint32_t vertices;
+  uint32_t free_vertices; /* vertices that are not on a curve */
+  uint32_t triangles;
+  uint32_t components;     /* connected components of the mesh */
+  uint32_t boundary_loops; /* closed chains of edges with one triangle */
+  int32_t euler_characteristic; /* vertices - edges + triangles */
+
+  double spacing;       /* the spacing used, in your units; mean edge length for wsk_smooth_mesh */
+  double min_angle_deg; /* the least angle of all triangles of the result */
+  double residual;      /* relative residual of the last linear solve, greatest of its columns */
+  size_t peak_bytes;    /* the most memory held at any time during the call */
+  double stage_ms[WSK_STAGE_COUNT]; /* 0 without a clock */
+  double total_ms;
+} wsk_report;
+
+/* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size. */
+void wsk_report_init(wsk_report* report, size_t size);
+
+/* ---- Surfaces --------------------------------------------------------------------------------- */
+
+typedef struct wsk_surface wsk_surface;
+
+/* One curve: `sample_count` points in order, each with the surface normal there. */
+typedef struct wsk_curve {
+  size_t sample_count;
+  /* x y z of each sample; the next sample begins position_stride bytes later (0: 24, packed). */
+  const double* positions;
+  size_t position_stride;
+  /* The surface's outer normal at each sample, of any length but zero; stride as above. */
+  const double* normals;
+  size_t normal_stride;
+  /* A number for each sample, or null. Samples of any curves that carry the same number are one
+     point: a node, where curves meet. WSK_NONE, or a number that occurs only once, is an ordinary
+     sample; so the vertex indices of a file can be passed as they are. Packed. */
+  const uint32_t* nodes;
+  /* Non-zero: the last sample is followed by the first, which is not repeated. */
+  int32_t closed;
+  /* Non-zero: the surface ends at this curve, it lies on one side only. */
+  int32_t boundary;
+} wsk_curve;
+
+/* Surfaces a network of curves.
+ *
+ * Curves are interpolated by cubic splines in chord length (periodic when closed, tangents of the
+ * end parabolas when open), positions and normals alike. Samples nearer than half the curve's mean
+ * spacing to the last one kept are left out before that, nodes never; nodes are vertices of the
+ * result, bit for bit. Curves may have corners only where two curves end at a node.
+ *
+ * The cycles that bound patches follow from the order of the curves round each node, seen from the
+ * tip of the node's normal. Each patch must be seen without folds from the mean of its normals and
+ * be bounded by one loop.
+ *
+ * `options` may be null (defaults); `report` may be null. On success *surface is the result, to be
+ * given to wsk_surface_free; on failure it is untouched. */
+wsk_status wsk_build(const wsk_curve* curves, size_t curve_count, const wsk_options* options,
+                     wsk_surface** surface, wsk_report* report);
+
+/* A triangle mesh of the caller's, some of whose vertices are fixed. */
+typedef struct wsk_mesh {
+  size_t vertex_count;
+  /* x y z of each vertex; stride in bytes (0: 24). Free vertices too: their position sets the metric
+     in which the surface is smoothed, so they should lie roughly where the surface will be. */
+  const double* positions;
+  size_t position_stride;
+  /* Outer normals; read at constrained vertices only. May be null for the methods that do not use
+     normals. */
+  const double* normals;
+  size_t normal_stride;
+  /* One byte a vertex, non-zero: position and normal are kept. Every vertex on an open border and
+     at least one of every component must be constrained. */
+  const uint8_t* constrained;
+  size_t triangle_count;
+  /* Three vertex indices a triangle, counter-clockwise from outside, packed. */
+  const uint32_t* triangles;
+} wsk_mesh;
+
+/* Smooths the caller's mesh: vertices that are not constrained move, vertices and triangles keep
+ * their order and number. In the result every constrained vertex is of curve 0, and every triangle
+ * of patch 0. Arguments and outcome as for wsk_build. */
+wsk_status wsk_smooth_mesh(const wsk_mesh* mesh, const wsk_options* options, wsk_surface** surface,
+                           wsk_report* report);
+
+/* What a surface holds. The arrays belong to the surface and live until it is freed. */
+typedef struct wsk_surface_view {
+  size_t size; /* set by wsk_surface_get_view */
+
+  uint32_t vertex_count;
+  uint32_t triangle_count;
+  uint32_t patch_count;
+  uint32_t curve_edge_count;
+
+  const double* positions;         /* 3 a vertex */
+  const double* normals;           /* 3 a vertex: unit normals of the mesh, weighted by angle */
+  const double* mean_curvature;    /* 1 a vertex: (k1 + k2) / 2, positive on a sphere, per length */
+  const uint32_t* vertex_curve;    /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
+                                      for a free vertex */
+  const double* constraint_normals; /* 3 a vertex: the input's unit normal there, 0 0 0 where free */
+  const uint32_t* triangles;       /* 3 a triangle, counter-clockwise from outside */
+  const uint32_t* triangle_patch;  /* 1 a triangle */
+  const uint32_t* curve_edges;     /* 2 an edge: the curves as resampled, in their direction */
+  const uint32_t* curve_edge_curve; /* 1 an edge: the caller's curve; both null for a caller's mesh */
+} wsk_surface_view;
+
+/* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is
+   written. A null surface gives an empty view; a null view is left alone. */
+void wsk_surface_get_view(const wsk_surface* surface, wsk_surface_view* view, size_t size);
+
+/* Gives the memory back through the allocator that it came from. Null is allowed. */
+void wsk_surface_free(wsk_surface* surface);
+
+/* The version of the library linked in, "major.minor.patch"; compare with WIRESKIN_VERSION_STRING. */
+const char* wsk_version_string(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* WIRESKIN_H */
