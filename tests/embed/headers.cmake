@@ -1,0 +1,35 @@
+# Both headers are C89; the implementation compiles as C++17 without a warning, gives the includer
+# back its macros and says so where the language is older.
+cmake_minimum_required(VERSION 3.25)
+include(${ROOT}/tests/embed/find_compilers.cmake)
+set(here ${ROOT}/tests/embed)
+
+function(compiles)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result ERROR_VARIABLE error)
+  if(NOT result EQUAL 0)
+    string(REPLACE ";" " " command "${ARGN}")
+    message(SEND_ERROR "${command}\n${error}")
+  endif()
+endfunction()
+
+file(MAKE_DIRECTORY ${WORK})
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${WORK}/wireskin.h -P ${ROOT}/single_include/amalgamate.cmake
+  COMMAND_ERROR_IS_FATAL ANY)
+
+foreach(cxx IN LISTS compilers)
+  set(c ${c_of_${cxx}})
+  set(warnings -Wall -Wextra -Wpedantic -Werror -fsyntax-only)
+  foreach(include ${ROOT}/src ${WORK})
+    compiles(${c} -std=c89 -pedantic-errors ${warnings} -I${include} ${here}/c89_user.c)
+    compiles(${c} -std=c11 -DWIRESKIN_USER ${warnings} -I${include} ${here}/c89_user.c)
+  endforeach()
+  compiles(${cxx} -std=c++17 ${warnings} -Wconversion -Wshadow -I${WORK} ${here}/macro_user.cpp)
+  compiles(${cxx} -std=c++20 ${warnings} -I${WORK} ${here}/macro_user.cpp)
+
+  execute_process(COMMAND ${cxx} -std=c++14 -fsyntax-only -I${WORK} ${here}/macro_user.cpp
+                  RESULT_VARIABLE result ERROR_VARIABLE error)
+  if(result EQUAL 0 OR NOT error MATCHES "the implementation of wireskin is C\\+\\+17")
+    message(SEND_ERROR "${cxx} -std=c++14 does not say that C++17 is needed")
+  endif()
+endforeach()

@@ -1,0 +1,2 @@
+#define WIRESKIN_IMPLEMENTATION
+#include "wireskin.h"

@@ -1,0 +1,52 @@
+# The library as it ships, embedded by another CMake project: it needs no symbol of the C++ runtime,
+# exports only the C API, and C programs link with it by the C compiler alone.
+cmake_minimum_required(VERSION 3.25)
+set(allowed
+    memcpy memmove memset memcmp malloc free sqrt
+    _GLOBAL_OFFSET_TABLE_)
+
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -S ${ROOT}/tests/embed -B ${WORK} -DWIRESKIN_ROOT=${ROOT}
+          -DCMAKE_BUILD_TYPE=Release
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK} -j 2
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB_RECURSE archive ${WORK}/wireskin/*wireskin.a)
+
+find_program(nm nm REQUIRED)
+execute_process(COMMAND ${nm} -u ${archive} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${nm} -g --defined-only ${archive} OUTPUT_VARIABLE defined_text
+                COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[^ \n]+ [0-9a-f]* *[TDRBVW] [^\n]*|[0-9a-f]+ [TDRBVW] [^\n]+" defined "${defined_text}")
+string(REGEX MATCHALL " U [^\n]+" undefined "${text}")
+list(TRANSFORM undefined REPLACE "^ U " "")
+list(TRANSFORM defined REPLACE "^.* [TDRBVW] " "")
+list(REMOVE_DUPLICATES undefined)
+list(LENGTH defined count)
+if(count LESS 10)
+  message(SEND_ERROR "only ${count} defined symbols were seen; this test reads nothing")
+endif()
+foreach(symbol IN LISTS undefined)
+  if(NOT symbol IN_LIST allowed AND NOT symbol IN_LIST defined)
+    message(SEND_ERROR "the library needs the symbol ${symbol}")
+  endif()
+endforeach()
+foreach(symbol IN LISTS defined)
+  if(NOT symbol MATCHES "^(wsk_|_ZN[A-Z0-9]*8wireskin|_Z[A-Z]*N[A-Z]*8wireskin)")
+    message(SEND_ERROR "the library defines the symbol ${symbol} outside its namespace")
+  endif()
+endforeach()
+
+# The C programs: the strict C89 one and the example of the README.
+find_program(cc NAMES cc gcc clang REQUIRED)
+file(GLOB programs ${ROOT}/tests/embed/c89_user.c ${ROOT}/examples/c/*.c)
+foreach(program IN LISTS programs)
+  get_filename_component(name ${program} NAME_WE)
+  execute_process(COMMAND ${cc} -I${ROOT}/src ${program} ${archive} -lm -o ${WORK}/${name}
+                  COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK}/${name} WORKING_DIRECTORY ${WORK} OUTPUT_QUIET
+                  RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(SEND_ERROR "${name} returned ${result}")
+  endif()
+endforeach()

@@ -1,0 +1,146 @@
+// Whatever the caller's allocator, memory cap or cancel callback does, a call ends with its own
+// status, leaves its outputs alone, gives everything back, and the same call works afterwards.
+//
+// The quick tier tries a sample of the places, spread evenly; WIRESKIN_FULL in the environment all.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "support/faulty_allocator.h"
+#include "support/scenes.h"
+
+using scenes::FaultyAllocator;
+using scenes::Scene;
+
+// Steps through [0, count): all in the full tier, about `sample` in the quick one.
+static size_t stride_for(size_t count, size_t sample) {
+  if (std::getenv("WIRESKIN_FULL") != nullptr) return 1;
+  return std::max<size_t>(1, count / sample);
+}
+
+struct Cancel {
+  size_t calls = 0;
+  size_t at = SIZE_MAX;
+
+  static int32_t ask(void* user) {
+    Cancel& self = *static_cast<Cancel*>(user);
+    return self.calls++ == self.at;
+  }
+};
+
+struct Run {
+  FaultyAllocator allocator;
+  Cancel cancel;
+  size_t memory_cap = 0;
+  wsk_report report;
+  uint64_t hash = 0;  // of the result, where there is one
+
+  wsk_status operator()(const Scene& scene) {
+    wsk_options options = scenes::options_of(scene);
+    allocator.install(&options);
+    options.memory_cap = memory_cap;
+    options.cancel = Cancel::ask;
+    options.cancel_user = &cancel;
+    wsk_report_init(&report, sizeof report);
+    wsk_surface* const sentinel = reinterpret_cast<wsk_surface*>(&options);
+    wsk_surface* surface = sentinel;
+    const wsk_status status = scenes::run(scene, options, &surface, &report);
+    if (status == WSK_OK) {
+      hash = scenes::hash_of(scenes::copy_of(surface));
+      wsk_surface_free(surface);
+    } else {
+      CHECK(surface == sentinel);
+      CHECK(report.sentence[0] != '\0');
+    }
+    CHECK(report.status == status);
+    CHECK(allocator.clean());
+    return status;
+  }
+};
+
+static void fail_allocation(const Scene& scene, size_t which, bool from_then) {
+  Run run;
+  run.allocator.fail_at = which;
+  run.allocator.fail_from_then = from_then;
+  CHECK(run(scene) == WSK_ERROR_OUT_OF_MEMORY);
+}
+
+TEST_CASE("every allocation may fail") {
+  for (const Scene& scene : scenes::all()) {
+    CAPTURE(scene.name);
+    Run whole;
+    REQUIRE(whole(scene) == WSK_OK);
+    const size_t count = whole.allocator.calls;
+    REQUIRE(count > 10);
+    const size_t step = stride_for(count, 40);
+    for (size_t i = 0; i < count; i += step) {
+      CAPTURE(i);
+      fail_allocation(scene, i, false);
+      fail_allocation(scene, i, true);
+      if (step > 1 && i / step % 8 != 0) continue;
+      Run again;
+      CHECK(again(scene) == WSK_OK);
+      CHECK(again.hash == whole.hash);
+    }
+    fail_allocation(scene, count - 1, false);
+    Run spared;  // the allocation after the last is never asked for
+    spared.allocator.fail_at = count;
+    CHECK(spared(scene) == WSK_OK);
+  }
+}
+
+TEST_CASE("the result does not depend on what fresh memory holds") {
+  for (const Scene& scene : scenes::all()) {
+    CAPTURE(scene.name);
+    Run zeros, ones;
+    zeros.allocator.pattern = 0x00;
+    ones.allocator.pattern = 0xff;
+    CHECK(zeros(scene) == WSK_OK);
+    CHECK(ones(scene) == WSK_OK);
+    CHECK(zeros.hash == ones.hash);
+  }
+}
+
+TEST_CASE("the memory cap holds to the byte") {
+  for (const Scene& scene : scenes::all()) {
+    CAPTURE(scene.name);
+    Run whole;
+    REQUIRE(whole(scene) == WSK_OK);
+    const size_t peak = whole.allocator.peak_bytes;
+    CHECK(whole.report.peak_bytes == peak);
+
+    std::vector<size_t> caps = {peak - 1, peak, peak + 1};
+    const size_t quarters = std::getenv("WIRESKIN_FULL") != nullptr ? 16 : 4;
+    for (size_t cap = 1; cap < 2 * peak; cap += 1 + cap / quarters) caps.push_back(cap);
+    for (const size_t cap : caps) {
+      CAPTURE(cap);
+      Run run;
+      run.memory_cap = cap;
+      CHECK(run(scene) == (cap < peak ? WSK_ERROR_MEMORY_CAP : WSK_OK));
+      CHECK(run.allocator.peak_bytes <= cap);
+      if (cap >= peak) CHECK(run.hash == whole.hash);
+    }
+  }
+}
+
+TEST_CASE("every checkpoint may cancel") {
+  for (const Scene& scene : scenes::all()) {
+    CAPTURE(scene.name);
+    Run whole;
+    REQUIRE(whole(scene) == WSK_OK);
+    const size_t count = whole.cancel.calls;
+    REQUIRE(count >=
+            WSK_STAGE_COUNT - 3);  // a mesh of the caller's has no curves, network, patches
+    for (size_t i = 0; i < count; i += stride_for(count, 40)) {
+      CAPTURE(i);
+      Run run;
+      run.cancel.at = i;
+      CHECK(run(scene) == WSK_ERROR_CANCELLED);
+      CHECK(run.cancel.calls == i + 1);  // nobody asks again after the answer
+    }
+    Run again;
+    CHECK(again(scene) == WSK_OK);
+    CHECK(again.hash == whole.hash);
+  }
+}

@@ -1,0 +1,41 @@
+#include "golden/golden.h"
+
+#include <doctest/doctest.h>
+
+#include "support/scenes.h"
+
+TEST_CASE("the reference scenes have the committed bits") {
+  for (const scenes::Scene& scene : scenes::all()) {
+    for (const Golden& golden : k_golden) {
+      if (scene.name != golden.scene) continue;
+      CAPTURE(scene.name);
+      CAPTURE(golden.method);
+      const scenes::Result result = scenes::result_of(scene, golden.method);
+      REQUIRE(!result.triangles.empty());
+      CHECK_MESSAGE(scenes::hash_of(result) == golden.hash, "the arrays now:\n"
+                                                                << scenes::hashes_by_array(result));
+    }
+  }
+}
+
+TEST_CASE("the hash sees every array") {
+  const scenes::Result whole = scenes::result_of(scenes::octants());
+  const uint64_t hash = scenes::hash_of(whole);
+  for (std::vector<double> scenes::Result::*array :
+       {&scenes::Result::positions, &scenes::Result::normals, &scenes::Result::mean_curvature,
+        &scenes::Result::constraint_normals}) {
+    scenes::Result changed = whole;
+    REQUIRE(!(changed.*array).empty());
+    double& last = (changed.*array).back();
+    last = last == 0.0 ? 5e-324 : -last;
+    CHECK(scenes::hash_of(changed) != hash);
+  }
+  for (std::vector<uint32_t> scenes::Result::*array :
+       {&scenes::Result::vertex_curve, &scenes::Result::triangles, &scenes::Result::triangle_patch,
+        &scenes::Result::curve_edges, &scenes::Result::curve_edge_curve}) {
+    scenes::Result changed = whole;
+    REQUIRE(!(changed.*array).empty());
+    (changed.*array).back() ^= 1;
+    CHECK(scenes::hash_of(changed) != hash);
+  }
+}

@@ -1,0 +1,56 @@
+# The golden hashes come out the same from every compiler at hand, unoptimised and optimised, from
+# separate sources and from the single header (which gets no flag that keeps floating point strict:
+# it must do so itself). TIER=quick builds one of the variants, TIER=full all.
+cmake_minimum_required(VERSION 3.25)
+include(${ROOT}/tests/embed/find_compilers.cmake)
+
+set(tests ${ROOT}/tests/golden/golden_print.cpp ${ROOT}/tests/support/scenes.cpp)
+file(GLOB_RECURSE sources ${ROOT}/src/*.cpp)
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${WORK}/wireskin.h -P ${ROOT}/single_include/amalgamate.cmake
+  COMMAND_ERROR_IS_FATAL ANY)
+
+# Where the processor has fused multiply-add, the compiler is allowed to use it and must not.
+set(fused "")
+if(EXISTS /proc/cpuinfo)
+  file(STRINGS /proc/cpuinfo flags REGEX "^flags.* fma .* avx2 |^flags.* avx2 .* fma " LIMIT_COUNT 1)
+  if(flags)
+    set(fused "-O3 -mavx2 -mfma")
+  endif()
+endif()
+
+function(check_variant cxx form flags)
+  get_filename_component(name ${cxx} NAME)
+  separate_arguments(flag_list UNIX_COMMAND "${flags}")
+  if(form STREQUAL "single")
+    set(input -I${WORK} ${ROOT}/tests/embed/implementation.cpp)
+  else()
+    set(input -I${ROOT}/src -ffp-contract=off ${sources})
+  endif()
+  execute_process(
+    COMMAND ${cxx} -std=c++17 ${flag_list} ${input} -I${ROOT}/tests ${tests} -o ${WORK}/print
+    COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK}/print --arrays OUTPUT_VARIABLE text RESULT_VARIABLE result)
+  if(result EQUAL 0)
+    message(STATUS "${name} ${flags} ${form}: equal")
+  else()
+    message(SEND_ERROR "${name} ${flags} ${form}: other bits than tests/golden/golden.h\n${text}")
+  endif()
+endfunction()
+
+if(TIER STREQUAL "quick")
+  list(REVERSE compilers)  # clang first: the separate sources are mostly tested with gcc
+  foreach(cxx IN LISTS compilers)
+    check_variant(${cxx} single -O0)
+    break()
+  endforeach()
+else()
+  foreach(cxx IN LISTS compilers)
+    foreach(flags "-O0" "-O3" ${fused})
+      check_variant(${cxx} single "${flags}")
+      check_variant(${cxx} separate "${flags}")
+    endforeach()
+  endforeach()
+endif()

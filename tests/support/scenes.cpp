@@ -1,0 +1,293 @@
+#include "support/scenes.h"
+
+#include <array>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+namespace scenes {
+
+struct Point2 {
+  double x, y;
+};
+
+// `segments` (a power of two) equal steps of the quarter from (1, 0) to (0, 1), both ends included.
+static std::vector<Point2> quarter(size_t segments) {
+  std::vector<Point2> points(segments + 1);
+  points[0] = {1.0, 0.0};
+  points[segments] = {0.0, 1.0};
+  for (size_t step = segments; step > 1; step /= 2) {
+    for (size_t i = 0; i < segments; i += step) {
+      const Point2 a = points[i], b = points[i + step];
+      const double x = a.x + b.x, y = a.y + b.y, norm = std::sqrt(x * x + y * y);
+      points[i + step / 2] = {x / norm, y / norm};
+    }
+  }
+  return points;
+}
+
+// The whole circle, without repeating its first point; exact under quarter turns.
+static std::vector<Point2> circle(size_t segments_per_quarter) {
+  const std::vector<Point2> first = quarter(segments_per_quarter);
+  std::vector<Point2> points;
+  for (int turn = 0; turn < 4; ++turn) {
+    for (size_t i = 0; i < segments_per_quarter; ++i) {
+      Point2 p = first[i];
+      for (int t = 0; t < turn; ++t) p = {-p.y, p.x};
+      points.push_back(p);
+    }
+  }
+  return points;
+}
+
+static void add_sample(Curve& curve, const std::array<double, 3>& position,
+                       const std::array<double, 3>& normal, uint32_t node) {
+  curve.positions.insert(curve.positions.end(), position.begin(), position.end());
+  curve.normals.insert(curve.normals.end(), normal.begin(), normal.end());
+  curve.nodes.push_back(node);
+}
+
+// The section of the ellipsoid with the plane of axes a and b. Nodes are numbered +x -x +y -y +z
+// -z.
+static Curve section(const std::vector<Point2>& unit_circle, size_t a, size_t b,
+                     const std::array<double, 3>& radii) {
+  const uint32_t node_at_quarter[4] = {static_cast<uint32_t>(2 * a), static_cast<uint32_t>(2 * b),
+                                       static_cast<uint32_t>(2 * a + 1),
+                                       static_cast<uint32_t>(2 * b + 1)};
+  const size_t quarter_size = unit_circle.size() / 4;
+  Curve curve;
+  curve.closed = true;
+  for (size_t i = 0; i < unit_circle.size(); ++i) {
+    std::array<double, 3> position = {}, normal = {};
+    position[a] = radii[a] * unit_circle[i].x;
+    position[b] = radii[b] * unit_circle[i].y;
+    normal[a] = unit_circle[i].x / radii[a];
+    normal[b] = unit_circle[i].y / radii[b];
+    const bool at_node = i % quarter_size == 0;
+    add_sample(curve, position, normal, at_node ? node_at_quarter[i / quarter_size] : WSK_NONE);
+  }
+  return curve;
+}
+
+Scene octants() {
+  Scene scene;
+  scene.name = "octants";
+  scene.spacing = 0.157;
+  const std::vector<Point2> points = circle(8);
+  scene.curves.push_back(section(points, 0, 1, {1.0, 1.0, 1.0}));
+  scene.curves.push_back(section(points, 1, 2, {1.0, 1.0, 1.0}));
+  scene.curves.push_back(section(points, 2, 0, {1.0, 1.0, 1.0}));
+  return scene;
+}
+
+Scene ellipsoid() {
+  // Rational points (1 - t^2, 2t) / (1 + t^2): denser towards the end of each quarter.
+  std::vector<Point2> points;
+  for (int turn = 0; turn < 4; ++turn) {
+    for (int i = 0; i < 9; ++i) {
+      const double t = i / 9.0, w = 1.0 + t * t;
+      Point2 p = {(1.0 - t * t) / w, 2.0 * t / w};
+      for (int k = 0; k < turn; ++k) p = {-p.y, p.x};
+      points.push_back(p);
+    }
+  }
+  Scene scene;
+  scene.name = "ellipsoid";
+  scene.spacing = 0.19;
+  const std::array<double, 3> radii = {1.0, 1.17, 0.83};
+  scene.curves.push_back(section(points, 0, 1, radii));
+  scene.curves.push_back(section(points, 1, 2, radii));
+  scene.curves.push_back(section(points, 2, 0, radii));
+  return scene;
+}
+
+static Curve saddle_line(bool along_x, int fixed) {
+  Curve curve;
+  curve.boundary = fixed != 0;
+  for (int i = 0; i <= 8; ++i) {
+    const double moving = -1.0 + i / 4.0;
+    const double x = along_x ? moving : fixed, y = along_x ? fixed : moving;
+    const int column = along_x ? i / 4 : fixed + 1, row = along_x ? fixed + 1 : i / 4;
+    const uint32_t node = i % 4 == 0 ? static_cast<uint32_t>(3 * row + column) : WSK_NONE;
+    add_sample(curve, {x, y, (x * x - y * y) / 2.0}, {-x, y, 1.0}, node);
+  }
+  return curve;
+}
+
+Scene saddle() {
+  Scene scene;
+  scene.name = "saddle";
+  scene.spacing = 0.125;
+  for (int fixed = -1; fixed <= 1; ++fixed) {
+    scene.curves.push_back(saddle_line(true, fixed));
+    scene.curves.push_back(saddle_line(false, fixed));
+  }
+  return scene;
+}
+
+Scene band() {
+  constexpr uint32_t k_rows = 9;
+  Scene scene;
+  scene.name = "band";
+  const std::vector<Point2> points = circle(8);
+  const uint32_t around = static_cast<uint32_t>(points.size());
+  for (uint32_t row = 0; row < k_rows; ++row) {
+    const double z = -0.75 + 1.5 * row / (k_rows - 1);
+    const double lean = row == 0 ? -0.5 : row == k_rows - 1 ? 0.5 : 0.0;
+    for (const Point2& p : points) {
+      scene.positions.insert(scene.positions.end(), {p.x, p.y, z});
+      scene.normals.insert(scene.normals.end(), {p.x, p.y, lean});
+      scene.constrained.push_back(row == 0 || row == k_rows - 1);
+    }
+  }
+  for (uint32_t row = 0; row + 1 < k_rows; ++row) {
+    for (uint32_t i = 0; i < around; ++i) {
+      const uint32_t a = row * around + i, b = row * around + (i + 1) % around;
+      const uint32_t c = b + around, d = a + around;
+      scene.triangles.insert(scene.triangles.end(), {a, b, c, a, c, d});
+    }
+  }
+  return scene;
+}
+
+std::vector<Scene> all() {
+  return {octants(), saddle(), band()};
+}
+
+std::vector<wsk_curve> curves_of(const Scene& scene) {
+  std::vector<wsk_curve> curves;
+  for (const Curve& from : scene.curves) {
+    wsk_curve curve = {};
+    curve.sample_count = from.size();
+    curve.positions = from.positions.data();
+    curve.normals = from.normals.data();
+    curve.nodes = from.nodes.data();
+    curve.closed = from.closed;
+    curve.boundary = from.boundary;
+    curves.push_back(curve);
+  }
+  return curves;
+}
+
+wsk_mesh mesh_of(const Scene& scene) {
+  wsk_mesh mesh = {};
+  mesh.vertex_count = scene.constrained.size();
+  mesh.positions = scene.positions.data();
+  mesh.normals = scene.normals.data();
+  mesh.constrained = scene.constrained.data();
+  mesh.triangle_count = scene.triangles.size() / 3;
+  mesh.triangles = scene.triangles.data();
+  return mesh;
+}
+
+wsk_options options_of(const Scene& scene) {
+  wsk_options options;
+  wsk_options_init(&options, sizeof options);
+  options.spacing = scene.spacing;
+  return options;
+}
+
+wsk_status run(const Scene& scene, const wsk_options& options, wsk_surface** surface,
+               wsk_report* report) {
+  if (!scene.triangles.empty()) {
+    const wsk_mesh mesh = mesh_of(scene);
+    return wsk_smooth_mesh(&mesh, &options, surface, report);
+  }
+  const std::vector<wsk_curve> curves = curves_of(scene);
+  return wsk_build(curves.data(), curves.size(), &options, surface, report);
+}
+
+template <typename T>
+static std::vector<T> copied(const T* from, size_t count) {
+  return from == nullptr ? std::vector<T>() : std::vector<T>(from, from + count);
+}
+
+Result copy_of(const wsk_surface* surface) {
+  wsk_surface_view view;
+  wsk_surface_get_view(surface, &view, sizeof view);
+  const size_t vertices = view.vertex_count, triangles = view.triangle_count;
+  Result result;
+  result.patch_count = view.patch_count;
+  result.positions = copied(view.positions, 3 * vertices);
+  result.normals = copied(view.normals, 3 * vertices);
+  result.mean_curvature = copied(view.mean_curvature, vertices);
+  result.constraint_normals = copied(view.constraint_normals, 3 * vertices);
+  result.vertex_curve = copied(view.vertex_curve, vertices);
+  result.triangles = copied(view.triangles, 3 * triangles);
+  result.triangle_patch = copied(view.triangle_patch, triangles);
+  result.curve_edges = copied(view.curve_edges, 2 * size_t{view.curve_edge_count});
+  result.curve_edge_curve = copied(view.curve_edge_curve, view.curve_edge_count);
+  return result;
+}
+
+static void hash_bits(uint64_t* hash, uint64_t bits, int bytes) {
+  for (int i = 0; i < bytes; ++i) {
+    *hash ^= (bits >> (8 * i)) & 0xff;
+    *hash *= 0x100000001b3u;
+  }
+}
+
+static void hash_array(uint64_t* hash, const std::vector<double>& values) {
+  hash_bits(hash, values.size(), 8);
+  for (const double value : values) {
+    uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    hash_bits(hash, bits, 8);
+  }
+}
+
+static void hash_array(uint64_t* hash, const std::vector<uint32_t>& values) {
+  hash_bits(hash, values.size(), 8);
+  for (const uint32_t value : values) hash_bits(hash, value, 4);
+}
+
+constexpr uint64_t k_hash_start = 0xcbf29ce484222325u;
+
+uint64_t hash_of(const Result& result) {
+  uint64_t hash = k_hash_start;
+  hash_bits(&hash, result.patch_count, 4);
+  hash_array(&hash, result.positions);
+  hash_array(&hash, result.normals);
+  hash_array(&hash, result.mean_curvature);
+  hash_array(&hash, result.constraint_normals);
+  hash_array(&hash, result.vertex_curve);
+  hash_array(&hash, result.triangles);
+  hash_array(&hash, result.triangle_patch);
+  hash_array(&hash, result.curve_edges);
+  hash_array(&hash, result.curve_edge_curve);
+  return hash;
+}
+
+template <typename T>
+static std::string named_hash(const char* name, const std::vector<T>& values) {
+  uint64_t hash = k_hash_start;
+  hash_array(&hash, values);
+  char line[96];
+  std::snprintf(line, sizeof line, "  %-18s %8zu %016" PRIx64 "\n", name, values.size(), hash);
+  return line;
+}
+
+std::string hashes_by_array(const Result& result) {
+  return named_hash("positions", result.positions) + named_hash("normals", result.normals) +
+         named_hash("mean_curvature", result.mean_curvature) +
+         named_hash("constraint_normals", result.constraint_normals) +
+         named_hash("vertex_curve", result.vertex_curve) +
+         named_hash("triangles", result.triangles) +
+         named_hash("triangle_patch", result.triangle_patch) +
+         named_hash("curve_edges", result.curve_edges) +
+         named_hash("curve_edge_curve", result.curve_edge_curve);
+}
+
+Result result_of(const Scene& scene, wsk_method method) {
+  wsk_options options = options_of(scene);
+  options.method = method;
+  wsk_surface* surface = nullptr;
+  if (run(scene, options, &surface, nullptr) != WSK_OK) return {};
+  Result result = copy_of(surface);
+  wsk_surface_free(surface);
+  return result;
+}
+
+}  // namespace scenes
