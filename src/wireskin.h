@@ -5,9 +5,9 @@
  * triangle mesh that passes through them. The method is that of T. Stanko, S. Hahmann,
  * G.-P. Bonneau, N. Saguin-Sprynski, "Surfacing Curve Networks with Normal Control", Computers and
  * Graphics 60, 2016: cycles from oriented normals, a constrained Delaunay triangulation of every
- * cycle in its plane, normals propagated from the curves, and a surface whose mean curvature follows
- * them. Everything it needs is inside; it calls nothing but memcpy, memmove, memset, sqrt and, where
- * you give no allocator, malloc and free.
+ * cycle in its plane, normals propagated from the curves, and a surface whose mean curvature
+ * follows them. Everything it needs is inside; it calls nothing but memcpy, memmove, memset, sqrt
+ * and, where you give no allocator, malloc and free.
  *
  * In one paragraph:
  *
@@ -41,8 +41,8 @@
  * - Sizes: indices have 32 bits, so a mesh has fewer than 2^32 - 1 vertices and the matrix factors
  *   fewer than 2^32 - 1 entries; beyond that the status is WSK_ERROR_TOO_LARGE.
  *
- * ABI: structs that may grow begin with their size, which the _init function writes; a library newer
- * than the caller never touches bytes beyond it. Numbers of constants never change.
+ * ABI: structs that may grow begin with their size, which the _init function writes; a library
+ * newer than the caller never touches bytes beyond it. Numbers of constants never change.
  */
 #ifndef WIRESKIN_H
 #define WIRESKIN_H
@@ -62,7 +62,8 @@ extern "C" {
 /* "No index": the curve of a free vertex, the place of an error that has none. */
 #define WSK_NONE 0xffffffffu
 
-/* ---- Statuses --------------------------------------------------------------------------------- */
+/* ---- Statuses ---------------------------------------------------------------------------------
+ */
 
 typedef int32_t wsk_status;
 
@@ -121,11 +122,12 @@ enum {
   WSK_ERROR_NOT_POSITIVE_DEFINITE = 24
 };
 
-/* The name of a status as written above without its prefix, in lower case ("zero_normal"); "unknown"
-   for other numbers. Static text. */
+/* The name of a status as written above without its prefix, in lower case ("zero_normal");
+   "unknown" for other numbers. Static text. */
 const char* wsk_status_name(wsk_status status);
 
-/* ---- Stages ----------------------------------------------------------------------------------- */
+/* ---- Stages -----------------------------------------------------------------------------------
+ */
 
 typedef int32_t wsk_stage;
 
@@ -144,7 +146,8 @@ enum {
 /* The name of a stage in lower case ("curves"); "unknown" for other numbers. Static text. */
 const char* wsk_stage_name(wsk_stage stage);
 
-/* ---- Options ---------------------------------------------------------------------------------- */
+/* ---- Options ----------------------------------------------------------------------------------
+ */
 
 typedef int32_t wsk_method;
 
@@ -198,7 +201,8 @@ typedef struct wsk_options {
    nothing for a null pointer or a size smaller than that of this version's first release. */
 void wsk_options_init(wsk_options* options, size_t size);
 
-/* ---- Report ----------------------------------------------------------------------------------- */
+/* ---- Report -----------------------------------------------------------------------------------
+ */
 
 typedef struct wsk_report {
   size_t size; /* set by wsk_report_init */
@@ -206,8 +210,8 @@ typedef struct wsk_report {
   wsk_status status;
   wsk_stage stage; /* where it failed; WSK_STAGE_RESULT after success */
   /* One English sentence without a full stop, or ""; static text. The places that it speaks of
-     follow, WSK_NONE where there is none: indices into the caller's curves and samples, the caller's
-     node number, the patch, and for wsk_smooth_mesh the caller's vertex and triangle. */
+     follow, WSK_NONE where there is none: indices into the caller's curves and samples, the
+     caller's node number, the patch, and for wsk_smooth_mesh the caller's vertex and triangle. */
   const char* sentence;
   uint32_t curve;
   uint32_t sample;
@@ -224,8 +228,8 @@ typedef struct wsk_report {
   uint32_t vertices;
   uint32_t free_vertices; /* vertices that are not on a curve */
   uint32_t triangles;
-  uint32_t components;     /* connected components of the mesh */
-  uint32_t boundary_loops; /* closed chains of edges with one triangle */
+  uint32_t components;          /* connected components of the mesh */
+  uint32_t boundary_loops;      /* closed chains of edges with one triangle */
   int32_t euler_characteristic; /* vertices - edges + triangles */
 
   double spacing;       /* the spacing used, in your units; mean edge length for wsk_smooth_mesh */
@@ -236,10 +240,12 @@ typedef struct wsk_report {
   double total_ms;
 } wsk_report;
 
-/* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size. */
+/* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
+ */
 void wsk_report_init(wsk_report* report, size_t size);
 
-/* ---- Surfaces --------------------------------------------------------------------------------- */
+/* ---- Surfaces ---------------------------------------------------------------------------------
+ */
 
 typedef struct wsk_surface wsk_surface;
 
@@ -281,8 +287,9 @@ wsk_status wsk_build(const wsk_curve* curves, size_t curve_count, const wsk_opti
 /* A triangle mesh of the caller's, some of whose vertices are fixed. */
 typedef struct wsk_mesh {
   size_t vertex_count;
-  /* x y z of each vertex; stride in bytes (0: 24). Free vertices too: their position sets the metric
-     in which the surface is smoothed, so they should lie roughly where the surface will be. */
+  /* x y z of each vertex; stride in bytes (0: 24). Free vertices too: their position sets the
+     metric in which the surface is smoothed, so they should lie roughly where the surface will be.
+   */
   const double* positions;
   size_t position_stride;
   /* Outer normals; read at constrained vertices only. May be null for the methods that do not use
@@ -312,16 +319,18 @@ typedef struct wsk_surface_view {
   uint32_t patch_count;
   uint32_t curve_edge_count;
 
-  const double* positions;         /* 3 a vertex */
-  const double* normals;           /* 3 a vertex: unit normals of the mesh, weighted by angle */
-  const double* mean_curvature;    /* 1 a vertex: (k1 + k2) / 2, positive on a sphere, per length */
-  const uint32_t* vertex_curve;    /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
-                                      for a free vertex */
-  const double* constraint_normals; /* 3 a vertex: the input's unit normal there, 0 0 0 where free */
-  const uint32_t* triangles;       /* 3 a triangle, counter-clockwise from outside */
-  const uint32_t* triangle_patch;  /* 1 a triangle */
-  const uint32_t* curve_edges;     /* 2 an edge: the curves as resampled, in their direction */
-  const uint32_t* curve_edge_curve; /* 1 an edge: the caller's curve; both null for a caller's mesh */
+  const double* positions;      /* 3 a vertex */
+  const double* normals;        /* 3 a vertex: unit normals of the mesh, weighted by angle */
+  const double* mean_curvature; /* 1 a vertex: (k1 + k2) / 2, positive on a sphere, per length */
+  const uint32_t* vertex_curve; /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
+                                   for a free vertex */
+  const double*
+      constraint_normals;         /* 3 a vertex: the input's unit normal there, 0 0 0 where free */
+  const uint32_t* triangles;      /* 3 a triangle, counter-clockwise from outside */
+  const uint32_t* triangle_patch; /* 1 a triangle */
+  const uint32_t* curve_edges;    /* 2 an edge: the curves as resampled, in their direction */
+  const uint32_t*
+      curve_edge_curve; /* 1 an edge: the caller's curve; both null for a caller's mesh */
 } wsk_surface_view;
 
 /* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is
@@ -331,7 +340,8 @@ void wsk_surface_get_view(const wsk_surface* surface, wsk_surface_view* view, si
 /* Gives the memory back through the allocator that it came from. Null is allowed. */
 void wsk_surface_free(wsk_surface* surface);
 
-/* The version of the library linked in, "major.minor.patch"; compare with WIRESKIN_VERSION_STRING. */
+/* The version of the library linked in, "major.minor.patch"; compare with WIRESKIN_VERSION_STRING.
+ */
 const char* wsk_version_string(void);
 
 #ifdef __cplusplus

@@ -3,7 +3,8 @@
 //
 // Invariants: T is trivially copyable and needs no destructor; an Array never throws, and a failed
 // call leaves it as it was. New elements of resize() are uninitialised; assign() fills.
-// Cost: push() is amortised constant. Routines reserve in their first lines where the size is known.
+// Cost: push() is amortised constant. Routines reserve in their first lines where the size is
+// known.
 #pragma once
 
 #include <type_traits>

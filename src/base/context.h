@@ -12,8 +12,8 @@
 
 namespace wireskin {
 
-// Memory from `allocate` must be aligned for double and pointers; null means failure. `release` gets
-// the size that was asked for. Both get `user`.
+// Memory from `allocate` must be aligned for double and pointers; null means failure. `release`
+// gets the size that was asked for. Both get `user`.
 struct Allocator {
   void* (*allocate)(size_t bytes, void* user) = nullptr;
   void (*release)(void* memory, size_t bytes, void* user) = nullptr;
@@ -34,9 +34,9 @@ enum class Stage : int32_t {
 inline constexpr int k_stage_count = 8;
 
 struct Callbacks {
-  int (*cancel)(void* user) = nullptr;  // non-zero: stop as soon as possible
+  int32_t (*cancel)(void* user) = nullptr;  // non-zero: stop as soon as possible
   void* cancel_user = nullptr;
-  void (*progress)(Stage stage, double fraction, void* user) = nullptr;
+  void (*progress)(int32_t stage, double fraction, void* user) = nullptr;
   void* progress_user = nullptr;
   double (*now)(void* user) = nullptr;  // milliseconds from any origin
   void* now_user = nullptr;
@@ -82,7 +82,7 @@ class Context {
   // Announces that `fraction` (0 to 1) of the current stage is done; also a checkpoint.
   Status progress(double fraction) {
     if (callbacks_.progress != nullptr) {
-      callbacks_.progress(stage_, fraction, callbacks_.progress_user);
+      callbacks_.progress(static_cast<int32_t>(stage_), fraction, callbacks_.progress_user);
     }
     return checkpoint();
   }

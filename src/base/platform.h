@@ -2,8 +2,9 @@
 // bits on every target cannot be kept, checked at compile time, and the assertion macro.
 //
 // Invariants: IEEE double arithmetic without excess precision, reassociation or fused multiply-add.
-// Assertions state lemmas about our own code; bad input never reaches one. They are compiled in only
-// where WIRESKIN_DEBUG is defined (tests and sanitizer builds), so a release cannot abort its host.
+// Assertions state lemmas about our own code; bad input never reaches one. They are compiled in
+// only where WIRESKIN_DEBUG is defined (tests and sanitizer builds), so a release cannot abort its
+// host.
 #pragma once
 
 #include <cfloat>
@@ -35,7 +36,8 @@
 
 namespace wireskin {
 
-// "No such curve, vertex, triangle ...": every index in the library is a uint32_t, and this is none.
+// "No such curve, vertex, triangle ...": every index in the library is a uint32_t, and this is
+// none.
 inline constexpr uint32_t k_none = 0xffffffffu;
 
 }  // namespace wireskin

@@ -2,8 +2,8 @@
 // sort on short runs, heapsort where the pivots turn out badly (Musser, "Introspective Sorting and
 // Selection Algorithms", 1997).
 //
-// `less` must be a total order (no two different elements may compare equal): then the result is the
-// same whatever the algorithm, which is why the library does not use std::sort. O(n log n).
+// `less` must be a total order (no two different elements may compare equal): then the result is
+// the same whatever the algorithm, which is why the library does not use std::sort. O(n log n).
 #pragma once
 
 #include "base/array.h"

@@ -1,9 +1,9 @@
-// What a failable function returns: a code, one English sentence and the place in the caller's input
-// that the sentence speaks of. Statuses are plain values; nothing here allocates.
+// What a failable function returns: a code, one English sentence and the place in the caller's
+// input that the sentence speaks of. Statuses are plain values; nothing here allocates.
 //
 // The sentence is a string literal, without the place, without a full stop: "the normal has zero
-// length". Whoever shows it puts the place in front. Indices in a Place are zero-based, k_none means
-// "does not apply".
+// length". Whoever shows it puts the place in front. Indices in a Place are zero-based, k_none
+// means "does not apply".
 #pragma once
 
 #include "base/platform.h"
@@ -76,8 +76,8 @@ inline Status fail_at_patch(Code code, const char* sentence, uint32_t patch) {
 }  // namespace wireskin
 
 // Hands a failure up to the caller; the whole of our error propagation.
-#define TRY(expression)                                           \
-  do {                                                            \
-    const ::wireskin::Status wireskin_try_status = (expression);  \
-    if (!wireskin_try_status.ok()) return wireskin_try_status;    \
+#define TRY(expression)                                          \
+  do {                                                           \
+    const ::wireskin::Status wireskin_try_status = (expression); \
+    if (!wireskin_try_status.ok()) return wireskin_try_status;   \
   } while (0)

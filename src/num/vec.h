@@ -1,6 +1,7 @@
 // Vectors of the plane and of space: plain pairs and triples of doubles with the usual products.
 //
-// Sums run in the order written, from the left; with contraction off the bits are the same everywhere.
+// Sums run in the order written, from the left; with contraction off the bits are the same
+// everywhere.
 #pragma once
 
 #include <cmath>
@@ -17,28 +18,58 @@ struct Vec3 {
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
-inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
-inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
-inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
-inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-inline double length(Vec2 a) { return std::sqrt(dot(a, a)); }
+inline Vec2 operator+(Vec2 a, Vec2 b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Vec2 operator-(Vec2 a, Vec2 b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline Vec2 operator*(double s, Vec2 a) {
+  return {s * a.x, s * a.y};
+}
+inline double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+inline double cross(Vec2 a, Vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double length(Vec2 a) {
+  return std::sqrt(dot(a, a));
+}
 
-inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
-inline Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Vec3& operator+=(Vec3& a, const Vec3& b) { return a = a + b; }
-inline Vec3& operator-=(Vec3& a, const Vec3& b) { return a = a - b; }
+inline Vec3 operator+(const Vec3& a, const Vec3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec3 operator-(const Vec3& a, const Vec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec3 operator-(const Vec3& a) {
+  return {-a.x, -a.y, -a.z};
+}
+inline Vec3 operator*(double s, const Vec3& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+inline Vec3& operator+=(Vec3& a, const Vec3& b) {
+  return a = a + b;
+}
+inline Vec3& operator-=(Vec3& a, const Vec3& b) {
+  return a = a - b;
+}
 inline bool operator==(const Vec3& a, const Vec3& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
-inline bool operator!=(const Vec3& a, const Vec3& b) { return !(a == b); }
-inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline bool operator!=(const Vec3& a, const Vec3& b) {
+  return !(a == b);
+}
+inline double dot(const Vec3& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+inline double length(const Vec3& a) {
+  return std::sqrt(dot(a, a));
+}
 
 // The unit vector along `a`; the zero vector stays zero.
 inline Vec3 unit(const Vec3& a) {
@@ -47,6 +78,8 @@ inline Vec3 unit(const Vec3& a) {
 }
 
 // The component of `a` across the unit vector `n`.
-inline Vec3 reject(const Vec3& a, const Vec3& n) { return a - dot(a, n) * n; }
+inline Vec3 reject(const Vec3& a, const Vec3& n) {
+  return a - dot(a, n) * n;
+}
 
 }  // namespace wireskin

@@ -1,0 +1,80 @@
+#include "mesh/curvature.h"
+
+namespace wireskin::mesh {
+
+void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
+                    Span<Vec3> normals) {
+  for (Vec3& n : normals) n = Vec3{};
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    const Vec3& p = positions[triangles[h]];
+    const Vec3 a = positions[triangles[next_half_edge(h)]] - p;
+    const Vec3 b = positions[triangles[previous_half_edge(h)]] - p;
+    const double squares = dot(a, a) * dot(b, b);
+    if (squares > 0.0) normals[triangles[h]] += (1.0 / squares) * cross(a, b);
+  }
+  for (Vec3& n : normals) n = unit(n);
+}
+
+namespace {
+
+// What border vertices gather from their neighbours.
+struct Mean {
+  double sum;
+  uint32_t count;
+};
+
+}  // namespace
+
+// One pass over the edges: vertices without a value take the mean of those neighbours that have
+// one.
+static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> known,
+                                 Span<Mean> mean, Span<double> values) {
+  for (Mean& m : mean) m = {0.0, 0};
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    const uint32_t a = triangles[h], b = triangles[next_half_edge(h)];
+    if (known[a] == known[b]) continue;
+    const uint32_t from = known[a] ? a : b, to = known[a] ? b : a;
+    mean[to].sum += values[from];
+    ++mean[to].count;
+  }
+  for (size_t v = 0; v < values.size(); ++v) {
+    if (known[v] || mean[v].count == 0) continue;
+    values[v] = mean[v].sum / static_cast<double>(mean[v].count);
+    known[v] = 1;
+  }
+}
+
+Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
+                      Span<const uint32_t> triangles, Span<const uint8_t> on_border,
+                      Array<double>* curvature) {
+  Context& context = curvature->context();
+  const size_t n = positions.size();
+  Array<double> area(context);
+  Array<uint8_t> known(context);
+  Array<Mean> mean(context);
+  TRY(curvature->assign(n, 0.0));
+  TRY(area.assign(n, 0.0));
+  TRY(known.resize(n));
+  TRY(mean.resize(n));
+  for (uint32_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t* v = &triangles[t];
+    const Vec3 normal = unit(normals[v[0]] + normals[v[1]] + normals[v[2]]);
+    const Vec3 cross_edges =
+        cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
+    const double third = length(cross_edges) / 6.0;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const Vec3 edge = positions[v[(k + 2) % 3]] - positions[v[(k + 1) % 3]];
+      (*curvature)[v[k]] += dot(cross(normal, edge), normals[v[k]]);
+      area[v[k]] += third;
+    }
+  }
+  for (size_t v = 0; v < n; ++v) {
+    known[v] = !on_border[v] && area[v] > 0.0;
+    (*curvature)[v] = known[v] ? (*curvature)[v] / (4.0 * area[v]) : 0.0;
+  }
+  fill_from_neighbours(triangles, known.span(), mean.span(), curvature->span());
+  fill_from_neighbours(triangles, known.span(), mean.span(), curvature->span());
+  return {};
+}
+
+}  // namespace wireskin::mesh

@@ -1,0 +1,185 @@
+#include "mesh/mesh.h"
+
+#include "num/trig.h"
+
+namespace wireskin::mesh {
+
+static Status fail_triangle(const char* sentence, size_t triangle) {
+  Place place;
+  place.triangle = static_cast<uint32_t>(triangle);
+  return fail(Code::bad_mesh, sentence, place);
+}
+
+static Status fail_vertex(const char* sentence, size_t vertex) {
+  Place place;
+  place.vertex = static_cast<uint32_t>(vertex);
+  return fail(Code::bad_mesh, sentence, place);
+}
+
+static Status check_indices(uint32_t vertices, Span<const uint32_t> triangles) {
+  for (size_t t = 0; t < triangles.size() / 3; ++t) {
+    const uint32_t a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
+    if (a >= vertices || b >= vertices || c >= vertices) {
+      Place place;
+      place.triangle = static_cast<uint32_t>(t);
+      return fail(Code::index_out_of_range, "the triangle names a vertex that does not exist",
+                  place);
+    }
+    if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
+  }
+  return {};
+}
+
+Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
+                    Array<uint32_t>* corner) {
+  TRY(start->assign(size_t{vertices} + 1, 0));
+  TRY(corner->resize(triangles.size()));
+  for (uint32_t v : triangles) ++(*start)[v];
+  starts_from_counts(start->span());
+  // Filling moves each start to the next vertex's; shift them back afterwards.
+  for (size_t h = 0; h < triangles.size(); ++h) {
+    (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h);
+  }
+  for (size_t v = vertices; v > 0; --v) (*start)[v] = (*start)[v - 1];
+  (*start)[0] = 0;
+  return {};
+}
+
+Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* twins) {
+  if (triangles.size() >= k_none) return fail(Code::too_large, "too many triangles");
+  TRY(check_indices(vertices, triangles));
+  Context& context = twins->context();
+  Array<uint32_t> start(context), corner(context);
+  TRY(find_corners(vertices, triangles, &start, &corner));
+  TRY(twins->assign(triangles.size(), k_none));
+  const auto head = [&](uint32_t h) { return triangles[next_half_edge(h)]; };
+  for (uint32_t v = 0; v < vertices; ++v) {
+    const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
+    for (size_t i = 0; i < leaving.size(); ++i) {
+      const uint32_t h = leaving[i], to = head(h);
+      for (size_t j = 0; j < i; ++j) {
+        if (head(leaving[j]) == to) {
+          return fail_triangle(
+              "an edge of the triangle belongs to another one in the same direction", h / 3);
+        }
+      }
+      if (to < v) continue;  // found from the other end
+      for (uint32_t k = start[to]; k < start[to + 1]; ++k) {
+        if (head(corner[k]) != v) continue;
+        (*twins)[h] = corner[k];
+        (*twins)[corner[k]] = h;
+      }
+    }
+    if (v % 65536 == 65535) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+// Joins the vertices of each triangle; every tree's root is its least vertex.
+static uint32_t root_of(Span<uint32_t> parent, uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+static void find_components(Span<const uint32_t> triangles, Topology* topology) {
+  const Span<uint32_t> parent = topology->component.span();
+  for (uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    for (size_t k = 1; k < 3; ++k) {
+      const uint32_t a = root_of(parent, triangles[t]), b = root_of(parent, triangles[t + k]);
+      (a < b ? parent[b] : parent[a]) = a < b ? a : b;
+    }
+  }
+  // Roots come before their members, so one pass replaces parents by component numbers.
+  for (uint32_t v = 0; v < parent.size(); ++v) {
+    parent[v] = parent[v] == v ? topology->components++ : parent[parent[v]];
+  }
+}
+
+// Walks round every vertex from one of its corners (at a border vertex: from the border) and
+// compares the number of triangles met with those it has.
+static Status check_fans(Span<const uint32_t> triangles, Span<const uint32_t> twins,
+                         Span<const uint32_t> start, Span<const uint32_t> corner,
+                         Span<uint8_t> on_border) {
+  for (size_t v = 0; v + 1 < start.size(); ++v) {
+    const uint32_t count = start[v + 1] - start[v];
+    if (count == 0) return fail_vertex("the vertex belongs to no triangle", v);
+    uint32_t first = corner[start[v]], borders = 0;
+    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
+      if (twins[corner[k]] != k_none) continue;  // clockwise of this corner the surface ends
+      first = corner[k];
+      ++borders;
+    }
+    uint32_t met = 0, h = first;
+    do {
+      ++met;
+      h = twins[previous_half_edge(h)];
+    } while (h != k_none && h != first && met <= count);
+    if (borders > 1 || met != count) {
+      return fail_vertex("the triangles round the vertex do not form one fan", v);
+    }
+    on_border[v] = borders == 1;
+  }
+  (void)triangles;
+  return {};
+}
+
+// Follows every border once, marking its half-edges.
+static Status count_loops(Span<const uint32_t> twins, Context& context, uint32_t* loops) {
+  Array<uint8_t> seen(context);
+  TRY(seen.assign(twins.size(), 0));
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] != k_none || seen[h]) continue;
+    ++*loops;
+    for (uint32_t g = h; !seen[g];) {
+      seen[g] = 1;
+      g = next_half_edge(g);
+      while (twins[g] != k_none) g = next_half_edge(twins[g]);
+    }
+  }
+  return {};
+}
+
+Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
+                     Topology* topology) {
+  Context& context = topology->on_border.context();
+  Array<uint32_t> start(context), corner(context);
+  TRY(find_corners(vertices, triangles, &start, &corner));
+  TRY(topology->on_border.assign(vertices, 0));
+  TRY(topology->component.resize(vertices));
+  TRY(check_fans(triangles, twins, start.span(), corner.span(), topology->on_border.span()));
+  find_components(triangles, topology);
+  TRY(count_loops(twins, context, &topology->boundary_loops));
+  for (uint32_t h = 0; h < twins.size(); ++h) topology->edges += twins[h] == k_none || h < twins[h];
+  topology->euler_characteristic = static_cast<int32_t>(int64_t{vertices} - topology->edges +
+                                                        static_cast<int64_t>(triangles.size() / 3));
+  return {};
+}
+
+Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const Vec3& a = positions[triangles[t]];
+    const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
+    if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
+  }
+  return {};
+}
+
+// The smallest angle of a triangle has the largest cosine, so one arctangent at the end is enough.
+double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+  double greatest_cosine = -1.0;
+  double angle = 0.0;
+  for (size_t h = 0; h < triangles.size(); ++h) {
+    const uint32_t corner = static_cast<uint32_t>(h);
+    const Vec3& p = positions[triangles[h]];
+    const Vec3 a = positions[triangles[next_half_edge(corner)]] - p;
+    const Vec3 b = positions[triangles[previous_half_edge(corner)]] - p;
+    const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
+    if (!(cosine > greatest_cosine)) continue;
+    greatest_cosine = cosine;
+    angle = angle_between(a, b);
+  }
+  return angle * (180.0 / k_pi);
+}
+
+}  // namespace wireskin::mesh

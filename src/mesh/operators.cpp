@@ -1,0 +1,130 @@
+#include "mesh/operators.h"
+
+namespace wireskin::mesh {
+
+// From the dot products of the edge vectors at each corner and twice the area.
+static TriangleShape shape_from(double dot_a, double dot_b, double dot_c, double twice_area) {
+  const double inverse = 1.0 / twice_area;
+  return {{dot_a * inverse, dot_b * inverse, dot_c * inverse}, 0.5 * twice_area};
+}
+
+TriangleShape triangle_shape(Vec2 a, Vec2 b, Vec2 c) {
+  return shape_from(dot(b - a, c - a), dot(c - b, a - b), dot(a - c, b - c), cross(b - a, c - a));
+}
+
+TriangleShape triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return shape_from(dot(b - a, c - a), dot(c - b, a - b), dot(a - c, b - c),
+                    length(cross(b - a, c - a)));
+}
+
+Status triangle_shapes(Span<const Vec3> positions, Span<const uint32_t> triangles,
+                       Array<TriangleShape>* shapes) {
+  TRY(shapes->resize(triangles.size() / 3));
+  for (size_t t = 0; t < shapes->size(); ++t) {
+    (*shapes)[t] = triangle_shape(positions[triangles[3 * t]], positions[triangles[3 * t + 1]],
+                                  positions[triangles[3 * t + 2]]);
+  }
+  return {};
+}
+
+void barycentric_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
+                       Span<double> areas) {
+  for (double& a : areas) a = 0.0;
+  for (size_t h = 0; h < triangles.size(); ++h) areas[triangles[h]] += shapes[h / 3].area / 3.0;
+}
+
+// The share of corner k. The square of the edge opposite to corner i is twice the area times the
+// sum of the other two cotangents, so the shape alone is enough.
+static double mixed_voronoi_share(const TriangleShape& shape, int k) {
+  const double here = shape.cotangent[k];
+  const double next = shape.cotangent[(k + 1) % 3], previous = shape.cotangent[(k + 2) % 3];
+  if (here < 0.0) return 0.5 * shape.area;
+  if (next < 0.0 || previous < 0.0) return 0.25 * shape.area;
+  return 0.25 * shape.area * ((here + next) * previous + (here + previous) * next);
+}
+
+void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
+                         Span<double> areas) {
+  for (double& a : areas) a = 0.0;
+  for (size_t h = 0; h < triangles.size(); ++h) {
+    areas[triangles[h]] += mixed_voronoi_share(shapes[h / 3], static_cast<int>(h % 3));
+  }
+}
+
+namespace {
+
+// One column of the matrix while it is being gathered: its entries in the order in which the
+// triangles bring them, and where the entry of each row stands.
+struct ColumnUnderWay {
+  Array<uint32_t> slot;  // per row: position in this column, k_none elsewhere
+  uint32_t first = 0;
+
+  explicit ColumnUnderWay(Context& context) : slot(context) {}
+};
+
+}  // namespace
+
+static void add_to_column(ColumnUnderWay* column, uint32_t row, double value, sparse::Csc* matrix) {
+  uint32_t& slot = column->slot[row];
+  if (slot == k_none) {
+    slot = static_cast<uint32_t>(matrix->row.size());
+    matrix->row.push_reserved(row);
+    matrix->value.push_reserved(0.0);
+  }
+  matrix->value[slot] += value;
+}
+
+// Sorts the column by row (it is short) and forgets its slots.
+static void close_column(ColumnUnderWay* column, sparse::Csc* matrix) {
+  const size_t first = column->first, end = matrix->row.size();
+  for (size_t i = first; i < end; ++i) column->slot[matrix->row[i]] = k_none;
+  for (size_t i = first + 1; i < end; ++i) {
+    const uint32_t row = matrix->row[i];
+    const double value = matrix->value[i];
+    size_t hole = i;
+    for (; hole > first && matrix->row[hole - 1] > row; --hole) {
+      matrix->row[hole] = matrix->row[hole - 1];
+      matrix->value[hole] = matrix->value[hole - 1];
+    }
+    matrix->row[hole] = row;
+    matrix->value[hole] = value;
+  }
+  column->first = static_cast<uint32_t>(end);
+}
+
+Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
+                           Span<const TriangleShape> shapes, sparse::Csc* laplacian) {
+  Context& context = laplacian->start.context();
+  Array<uint32_t> start(context), corner(context);
+  ColumnUnderWay column(context);
+  TRY(find_corners(vertices, triangles, &start, &corner));
+  TRY(column.slot.assign(vertices, k_none));
+  laplacian->rows = laplacian->cols = vertices;
+  TRY(laplacian->start.resize(size_t{vertices} + 1));
+  // A column has its diagonal and at most two entries a triangle.
+  const size_t most = size_t{vertices} + 2 * triangles.size();
+  if (most >= k_none) return fail(Code::too_large, "the mesh is too large for 32-bit indices");
+  TRY(laplacian->row.reserve(most));
+  TRY(laplacian->value.reserve(most));
+  laplacian->row.clear();
+  laplacian->value.clear();
+  for (uint32_t v = 0; v < vertices; ++v) {
+    laplacian->start[v] = static_cast<uint32_t>(laplacian->row.size());
+    add_to_column(&column, v, 0.0, laplacian);
+    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
+      const uint32_t h = corner[k], next = next_half_edge(h), previous = previous_half_edge(h);
+      const TriangleShape& shape = shapes[h / 3];
+      const double to_next = 0.5 * shape.cotangent[previous % 3];
+      const double to_previous = 0.5 * shape.cotangent[next % 3];
+      add_to_column(&column, triangles[next], to_next, laplacian);
+      add_to_column(&column, triangles[previous], to_previous, laplacian);
+      add_to_column(&column, v, -to_next - to_previous, laplacian);
+    }
+    close_column(&column, laplacian);
+    if (v % 16384 == 16383) TRY(context.checkpoint());
+  }
+  laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());
+  return {};
+}
+
+}  // namespace wireskin::mesh

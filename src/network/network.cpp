@@ -1,0 +1,293 @@
+#include "network/network.h"
+
+#include "base/sort.h"
+
+namespace wireskin::network {
+
+namespace {
+
+// What the steps below share. Half-segments are numbered as in the header.
+struct Graph {
+  const curves::Curves& curves;
+  Span<const Node> nodes;
+  Span<const Segment> segments;
+
+  const Segment& segment_of(uint32_t h) const { return segments[h / 2]; }
+  uint32_t from(uint32_t h) const { return h % 2 == 0 ? segment_of(h).from : segment_of(h).to; }
+  curves::Curve curve_of(uint32_t h) const { return curves[segment_of(h).curve]; }
+};
+
+struct Leaving {
+  uint32_t half_segment;
+  double angle;
+};
+
+struct Cycles {
+  Array<uint32_t> next;   // of each half-segment
+  Array<uint32_t> cycle;  // of each half-segment
+  uint32_t count = 0;
+
+  explicit Cycles(Context& context) : next(context), cycle(context) {}
+};
+
+}  // namespace
+
+static Status fail_at_node(Code code, const char* sentence, const Graph& graph, uint32_t node,
+                           uint32_t h) {
+  const Segment& segment = graph.segment_of(h);
+  const curves::Curve curve = graph.curve_of(h);
+  Place place;
+  place.node = graph.nodes[node].number;
+  place.curve = segment.curve;
+  place.sample = curve.sample[h % 2 == 0 ? segment.first_knot : segment.last_knot];
+  return fail(code, sentence, place);
+}
+
+// The stretches between the nodes of one curve.
+static Status cut_curve(const curves::Curve& curve, uint32_t index, bool boundary,
+                        Array<Segment>* segments) {
+  const uint32_t last = static_cast<uint32_t>(curve.node.size()) - 1;
+  const bool closed = curve.sample[0] == curve.sample[last];
+  if (closed && curve.node[0] == k_none) {
+    return segments->push({index, 0, last, k_none, k_none, boundary});
+  }
+  const uint32_t ends[] = {0, last};
+  for (uint32_t end : ends) {
+    if (curve.node[end] != k_none) continue;
+    return fail_at_sample(Code::open_network, "the curve ends here without meeting another curve",
+                          index, curve.sample[end]);
+  }
+  uint32_t first = 0;
+  for (uint32_t knot = 1; knot <= last; ++knot) {
+    if (curve.node[knot] == k_none) continue;
+    TRY(segments->push({index, first, knot, curve.node[first], curve.node[knot], boundary}));
+    first = knot;
+  }
+  return {};
+}
+
+// The direction in which half-segment h leaves its node: the tangent, or the secant over a part of
+// its length where curves touch and tangents do not tell them apart.
+static Vec3 direction(const Graph& graph, uint32_t h, double distance) {
+  const Segment& segment = graph.segment_of(h);
+  const curves::Curve curve = graph.curve_of(h);
+  const bool forward = h % 2 == 0;
+  const uint32_t knot = forward ? segment.first_knot : segment.last_knot;
+  if (distance == 0.0) {
+    const Vec3 tangent = tangent_at_knot(curve, knot);
+    return forward ? tangent : -tangent;
+  }
+  const double s = forward ? curve.arc[knot] + distance : curve.arc[knot] - distance;
+  return point_at(curve, segment.first_knot, segment.last_knot, s).position -
+         curve.position.value[knot];
+}
+
+// Grows with the angle from the x axis, counter-clockwise, from 0 to 4; no trigonometry needed.
+static double diamond_angle(double x, double y) {
+  const double t = y / (std::fabs(x) + std::fabs(y));
+  if (x < 0.0) return 2.0 - t;
+  return y < 0.0 ? 4.0 + t : t;
+}
+
+static double shortest_length(const Graph& graph, Span<const Leaving> leaving) {
+  double shortest = -1.0;
+  for (const Leaving& l : leaving) {
+    const Segment& segment = graph.segment_of(l.half_segment);
+    const curves::Curve curve = graph.curve_of(l.half_segment);
+    const double length = curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
+    if (shortest < 0.0 || length < shortest) shortest = length;
+  }
+  return shortest;
+}
+
+// Angles of all half-segments that leave a node, in the plane across its normal.
+static Status measure_angles(const Graph& graph, uint32_t node, double distance,
+                             Span<Leaving> leaving) {
+  const Vec3& n = graph.nodes[node].normal;
+  const double ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
+  const Vec3 axis = ax <= ay && ax <= az ? Vec3{1, 0, 0} : ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 u = unit(reject(axis, n));
+  const Vec3 v = cross(n, u);
+  for (Leaving& l : leaving) {
+    const Vec3 d = direction(graph, l.half_segment, distance);
+    const double x = dot(d, u), y = dot(d, v);
+    constexpr double k_least_sine = 1e-3;
+    if (!(x * x + y * y > k_least_sine * k_least_sine * dot(d, d))) {
+      return fail_at_node(Code::tangent_normal, "the normal of the node is parallel to the curve",
+                          graph, node, l.half_segment);
+    }
+    l.angle = diamond_angle(x, y);
+  }
+  return {};
+}
+
+static bool all_differ(Span<const Leaving> sorted) {
+  constexpr double k_least_gap = 1e-6;
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    const bool wraps = i + 1 == sorted.size();
+    const double next = wraps ? sorted[0].angle + 4.0 : sorted[i + 1].angle;
+    if (sorted.size() > 1 && next - sorted[i].angle < k_least_gap) return false;
+  }
+  return true;
+}
+
+// Sorts the half-segments that leave a node counter-clockwise.
+static Status sort_round_node(const Graph& graph, uint32_t node, Span<Leaving> leaving) {
+  const double shortest = shortest_length(graph, leaving);
+  constexpr double k_parts[] = {0.0, 1.0 / 32.0, 0.25};
+  for (double part : k_parts) {
+    TRY(measure_angles(graph, node, part * shortest, leaving));
+    sort(leaving, [](const Leaving& a, const Leaving& b) {
+      return a.angle != b.angle ? a.angle < b.angle : a.half_segment < b.half_segment;
+    });
+    if (all_differ(leaving)) return {};
+  }
+  return fail_at_node(Code::inconsistent_normals,
+                      "two curves leave the node in the same direction, seen along its normal",
+                      graph, node, leaving[0].half_segment);
+}
+
+// Coming into a node along h, the way goes on clockwise of where it came from.
+static Status link_half_segments(const Graph& graph, Span<uint32_t> next) {
+  Context& context = graph.curves.start.context();
+  Array<uint32_t> start(context);
+  Array<Leaving> leaving(context);
+  TRY(start.assign(graph.nodes.size() + 1, 0));
+  TRY(leaving.resize(next.size()));
+  for (uint32_t h = 0; h < next.size(); ++h) {
+    if (graph.from(h) == k_none) {
+      next[h] = h;  // a closed curve without node is its own cycle
+    } else {
+      ++start[graph.from(h)];
+    }
+  }
+  starts_from_counts(start.span());
+  Array<uint32_t> fill(context);
+  TRY(fill.copy(start.span()));
+  for (uint32_t h = 0; h < next.size(); ++h) {
+    if (graph.from(h) != k_none) leaving[fill[graph.from(h)]++] = {h, 0.0};
+  }
+  for (uint32_t node = 0; node < graph.nodes.size(); ++node) {
+    const Span<Leaving> round = leaving.span().part(start[node], start[node + 1] - start[node]);
+    if (round.empty()) continue;
+    TRY(sort_round_node(graph, node, round));
+    for (size_t i = 0; i < round.size(); ++i) {
+      const size_t clockwise = i == 0 ? round.size() - 1 : i - 1;
+      next[opposite(round[i].half_segment)] = round[clockwise].half_segment;
+    }
+  }
+  return {};
+}
+
+static void number_cycles(Cycles* cycles) {
+  for (uint32_t h = 0; h < cycles->next.size(); ++h) {
+    if (cycles->cycle[h] != k_none) continue;
+    for (uint32_t g = h; cycles->cycle[g] == k_none; g = cycles->next[g]) {
+      cycles->cycle[g] = cycles->count;
+    }
+    ++cycles->count;
+  }
+}
+
+// Twice the area that the cycle through h encloses, seen along the sum of its normals; the sign
+// tells a patch, counter-clockwise, from the outside of one.
+static double signed_area(const Graph& graph, Span<const uint32_t> next, uint32_t h) {
+  const Segment& first = graph.segment_of(h);
+  const Vec3 base = graph.curves[first.curve].position.value[first.first_knot];
+  Vec3 area, normals;
+  uint32_t g = h;
+  do {
+    const Segment& segment = graph.segment_of(g);
+    const curves::Curve curve = graph.curve_of(g);
+    const double sign = g % 2 == 0 ? 1.0 : -1.0;
+    for (uint32_t k = segment.first_knot; k < segment.last_knot; ++k) {
+      const Vec3 a = curve.position.value[k] - base, b = curve.position.value[k + 1] - base;
+      area += sign * cross(a, b);
+      normals += curve.normal.value[k];
+    }
+    g = next[g];
+  } while (g != h);
+  return dot(area, normals);
+}
+
+// Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for
+// sure, or else when they run clockwise.
+static Status find_outside(const Graph& graph, const Cycles& cycles, Array<uint8_t>* outside) {
+  Context& context = outside->context();
+  Array<uint8_t> inner(context);  // has a segment that is no boundary
+  TRY(inner.assign(cycles.count, 0));
+  TRY(outside->assign(cycles.count, 0));
+  const uint32_t halves = static_cast<uint32_t>(cycles.next.size());
+  for (uint32_t h = 0; h < halves; ++h) {
+    if (!graph.segment_of(h).boundary) inner[cycles.cycle[h]] = 1;
+  }
+  for (uint32_t h = 0; h < halves; ++h) {
+    const uint32_t c = cycles.cycle[h];
+    if (!inner[c] && inner[cycles.cycle[opposite(h)]]) (*outside)[c] = 1;
+  }
+  Array<uint8_t> measured(context);
+  TRY(measured.assign(cycles.count, 0));
+  for (uint32_t h = 0; h < halves; ++h) {
+    const uint32_t c = cycles.cycle[h];
+    if (inner[c] || (*outside)[c] || measured[c]) continue;
+    measured[c] = 1;
+    (*outside)[c] = signed_area(graph, cycles.next.span(), h) < 0.0;
+  }
+  for (uint32_t h = 0; h < halves; h += 2) {
+    const Segment& segment = graph.segment_of(h);
+    const int sides = !(*outside)[cycles.cycle[h]] + !(*outside)[cycles.cycle[opposite(h)]];
+    if (!segment.boundary || sides == 1) continue;
+    return fail_at_sample(
+        Code::open_network,
+        "this boundary curve has the surface on both sides: every curve of a border "
+        "must be tagged as boundary, and no other",
+        segment.curve, graph.curve_of(h).sample[segment.first_knot]);
+  }
+  return {};
+}
+
+static Status collect_patches(const Graph& graph, const Cycles& cycles, Span<const uint8_t> outside,
+                              Network* network) {
+  Array<uint8_t> done(network->patch_start.context());
+  TRY(done.assign(cycles.count, 0));
+  TRY(network->patch_start.push(0));
+  TRY(network->half_segment.reserve(cycles.next.size()));
+  for (uint32_t h = 0; h < cycles.next.size(); ++h) {
+    const uint32_t c = cycles.cycle[h];
+    if (outside[c] || done[c]) continue;
+    done[c] = 1;
+    uint32_t g = h;
+    do {
+      if (cycles.cycle[opposite(g)] == c) {
+        Place place;
+        place.patch = network->patches();
+        place.curve = graph.segment_of(g).curve;
+        return fail(Code::patch_several_loops,
+                    "the border of the patch passes a curve on both sides", place);
+      }
+      network->half_segment.push_reserved(g);
+      g = cycles.next[g];
+    } while (g != h);
+    TRY(network->patch_start.push(static_cast<uint32_t>(network->half_segment.size())));
+  }
+  return {};
+}
+
+Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
+                    Span<const Node> nodes, Network* network) {
+  Context& context = network->segment.context();
+  for (uint32_t c = 0; c < curves.size(); ++c) {
+    TRY(cut_curve(curves[c], c, boundary[c] != 0, &network->segment));
+  }
+  const Graph graph = {curves, nodes, network->segment.span()};
+  Cycles cycles(context);
+  Array<uint8_t> outside(context);
+  TRY(cycles.next.resize(2 * network->segment.size()));
+  TRY(cycles.cycle.assign(2 * network->segment.size(), k_none));
+  TRY(link_half_segments(graph, cycles.next.span()));
+  number_cycles(&cycles);
+  TRY(find_outside(graph, cycles, &outside));
+  return collect_patches(graph, cycles, outside.span(), network);
+}
+
+}  // namespace wireskin::network

@@ -1,0 +1,66 @@
+#include "network/nodes.h"
+
+#include "base/sort.h"
+
+namespace wireskin::network {
+
+static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,
+                      uint32_t sample) {
+  Place place;
+  place.curve = 0;
+  while (samples.start[place.curve + 1] <= sample) ++place.curve;
+  place.sample = sample - samples.start[place.curve];
+  place.node = samples.number[sample];
+  return fail(code, sentence, place);
+}
+
+// Makes one node of the samples that carry the same number.
+static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, double tolerance,
+                    Node* node) {
+  node->number = samples.number[members[0]];
+  node->position = samples.position[members[0]];
+  Vec3 sum;
+  for (uint32_t sample : members) {
+    if (length(samples.position[sample] - node->position) > tolerance) {
+      return fail_at(Code::node_mismatch, "samples of the same node lie at different points",
+                     samples, sample);
+    }
+    sum += samples.normal[sample];
+  }
+  node->normal = unit(sum);
+  for (uint32_t sample : members) {
+    if (!(dot(samples.normal[sample], node->normal) > 0.0)) {
+      return fail_at(Code::inconsistent_normals,
+                     "the normal opposes those of the other curves at this node", samples, sample);
+    }
+  }
+  return {};
+}
+
+Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
+                  Array<uint32_t>* node_of_sample) {
+  Array<uint32_t> order(nodes->context());
+  TRY(order.reserve(samples.number.size()));
+  TRY(node_of_sample->assign(samples.number.size(), k_none));
+  for (uint32_t i = 0; i < samples.number.size(); ++i) {
+    if (samples.number[i] != k_none) order.push_reserved(i);
+  }
+  const Span<const uint32_t> number = samples.number;
+  sort(order.span(), [number](uint32_t a, uint32_t b) {
+    return number[a] != number[b] ? number[a] < number[b] : a < b;
+  });
+  nodes->clear();
+  for (size_t first = 0, end = 0; first < order.size(); first = end) {
+    while (end < order.size() && number[order[end]] == number[order[first]]) ++end;
+    if (end - first < 2) continue;
+    Node node;
+    TRY(merge(samples, order.span().part(first, end - first), tolerance, &node));
+    for (size_t k = first; k < end; ++k) {
+      (*node_of_sample)[order[k]] = static_cast<uint32_t>(nodes->size());
+    }
+    TRY(nodes->push(node));
+  }
+  return {};
+}
+
+}  // namespace wireskin::network

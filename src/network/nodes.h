@@ -1,0 +1,33 @@
+// Nodes: the points that several curves share.
+//
+// In: for every sample the number the caller gave it (k_none: none). Numbers that occur at two
+// samples or more are nodes, whichever curves those belong to. Out: the nodes in ascending order of
+// their numbers and the node of each sample. A node has the position of its first sample (the
+// others must agree with it) and the mean of its samples' normals. O(s log s).
+#pragma once
+
+#include "base/array.h"
+#include "num/vec.h"
+
+namespace wireskin::network {
+
+struct Node {
+  Vec3 position;
+  Vec3 normal;      // unit
+  uint32_t number;  // the caller's
+};
+
+// The samples of all curves one after the other; curve c has start[c] .. start[c + 1).
+struct SampleNumbers {
+  Span<const uint32_t> start;
+  Span<const uint32_t> number;
+  Span<const Vec3> position;
+  Span<const Vec3> normal;  // unit
+};
+
+// `tolerance`: how far samples of one node may lie apart. Fails with node_mismatch or
+// inconsistent_normals, naming curve, sample and number.
+Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
+                  Array<uint32_t>* node_of_sample);
+
+}  // namespace wireskin::network

@@ -1,0 +1,181 @@
+#include "network/patch_mesh.h"
+
+#include "base/sort.h"
+#include "network/enclosure.h"
+#include "planar/polygon_mesh.h"
+
+namespace wireskin::network {
+
+namespace {
+
+// An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a
+// curve.
+struct Chord {
+  uint32_t a, b;
+  uint32_t patch;
+};
+
+// What is gathered over all patches: corner[3 t + k] is corner k of triangle t in its patch's
+// plane.
+struct Builder {
+  PatchMesh* mesh;
+  Array<Vec2> corner;
+  Array<Chord> chord;
+  Array<uint32_t> patch_start;  // first triangle of each patch, before chords are split
+
+  explicit Builder(Context& context, PatchMesh* result)
+      : mesh(result), corner(context), chord(context), patch_start(context) {}
+};
+
+// Memory for one patch, reused.
+struct PatchScratch {
+  Array<uint32_t> border;
+  Array<Vec2> polygon;
+  planar::PolygonMesh planar;
+
+  explicit PatchScratch(Context& context) : border(context), polygon(context), planar(context) {}
+};
+
+}  // namespace
+
+static Status at_patch(Status status, uint32_t patch) {
+  if (!status.ok() && status.code != Code::cancelled && status.code != Code::out_of_memory &&
+      status.code != Code::memory_cap) {
+    status.place.patch = patch;
+  }
+  return status;
+}
+
+static double mean_edge(const CurveVertices& vertices, Span<const uint32_t> border) {
+  double sum = 0.0;
+  for (size_t i = 0; i < border.size(); ++i) {
+    const size_t next = i + 1 == border.size() ? 0 : i + 1;
+    sum += length(vertices.position[border[next]] - vertices.position[border[i]]);
+  }
+  return sum / static_cast<double>(border.size());
+}
+
+// The planar mesh numbers border vertices 0 .. n - 1 and inner ones from n.
+static Status append_patch(const PatchScratch& scratch, uint32_t patch, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  const uint32_t n = static_cast<uint32_t>(scratch.border.size());
+  const auto global = [&](uint32_t v) {
+    return v < n ? scratch.border[v] : mesh->vertices + (v - n);
+  };
+  const Array<uint32_t>& triangle = scratch.planar.triangles;
+  for (size_t h = 0; h < triangle.size(); ++h) {
+    const uint32_t a = triangle[h], b = triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    TRY(mesh->triangle.push(global(a)));
+    TRY(builder->corner.push(scratch.planar.points[a]));
+    if (h % 3 == 0) TRY(mesh->patch.push(patch));
+    const bool on_border = (a + 1) % n == b || (b + 1) % n == a;
+    // Each edge inside is met once in each direction; the ascending one is noted.
+    if (a < n && b < n && !on_border && global(a) < global(b)) {
+      TRY(builder->chord.push({global(a), global(b), patch}));
+    }
+  }
+  const uint64_t vertices = uint64_t{mesh->vertices} + scratch.planar.points.size() - n;
+  if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
+    return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  mesh->vertices = static_cast<uint32_t>(vertices);
+  return {};
+}
+
+static Status mesh_patch(const Network& network, const CurveVertices& vertices,
+                         const Enclosure& enclosure, uint32_t patch, PatchScratch* scratch,
+                         Builder* builder) {
+  Context& context = scratch->border.context();
+  Plane plane;
+  TRY(border_of_patch(network, vertices, patch, &scratch->border));
+  TRY(fit_plane(vertices, scratch->border.span(), &plane));
+  TRY(scratch->polygon.resize(scratch->border.size()));
+  for (size_t i = 0; i < scratch->border.size(); ++i) {
+    scratch->polygon[i] = plane.project(vertices.position[scratch->border[i]]);
+  }
+  TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
+  TRY(planar::mesh_polygon(context, scratch->polygon.span(),
+                           mean_edge(vertices, scratch->border.span()), &scratch->planar));
+  return append_patch(*scratch, patch, builder);
+}
+
+// Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the
+// triangle keeps one half, a new triangle takes the other.
+static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
+  const Vec2 middle = 0.5 * (builder->corner[h] + builder->corner[next]);
+  const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
+  const Vec2 corner[3] = {middle, builder->corner[next], builder->corner[previous]};
+  for (int k = 0; k < 3; ++k) {
+    TRY(mesh->triangle.push(vertex[k]));
+    TRY(builder->corner.push(corner[k]));
+  }
+  mesh->triangle[next] = m;
+  builder->corner[next] = middle;
+  return mesh->patch.push(mesh->patch[h / 3]);
+}
+
+static Status split_chord(const Chord& chord, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  const uint32_t middle = mesh->vertices++;
+  const uint32_t halves = static_cast<uint32_t>(mesh->triangle.size());
+  const uint32_t own_end = 3 * builder->patch_start[chord.patch + 1];
+  const uint32_t first_split = 3 * builder->patch_start[builder->patch_start.size() - 1];
+  for (uint32_t h = 3 * builder->patch_start[chord.patch]; h < halves; ++h) {
+    if (h == own_end && h < first_split) h = first_split;  // skip the other patches
+    const uint32_t a = mesh->triangle[h], b = mesh->triangle[mesh::next_half_edge(h)];
+    const bool here = (a == chord.a && b == chord.b) || (a == chord.b && b == chord.a);
+    if (here && mesh->patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, builder));
+  }
+  return {};
+}
+
+// Splits every chord that stands in two patches or beside a curve's edge.
+static Status split_shared_chords(const Network& network, const CurveVertices& vertices,
+                                  Builder* builder) {
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+      const uint32_t a = segment_vertex(network, vertices, s, k);
+      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
+      TRY(builder->chord.push({a < b ? a : b, a < b ? b : a, k_none}));
+    }
+  }
+  sort(builder->chord.span(), [](const Chord& x, const Chord& y) {
+    if (x.a != y.a) return x.a < y.a;
+    return x.b != y.b ? x.b < y.b : x.patch < y.patch;
+  });
+  const Span<const Chord> chords = builder->chord.span();
+  for (size_t i = 0; i < chords.size(); ++i) {
+    const auto same = [&](size_t k) {
+      return k < chords.size() && chords[k].a == chords[i].a && chords[k].b == chords[i].b;
+    };
+    const bool shared = same(i + 1) || (i > 0 && same(i - 1));
+    if (shared && chords[i].patch != k_none) TRY(split_chord(chords[i], builder));
+  }
+  return {};
+}
+
+Status mesh_patches(const Network& network, const CurveVertices& vertices, PatchMesh* mesh) {
+  Context& context = mesh->triangle.context();
+  Builder builder(context, mesh);
+  PatchScratch scratch(context);
+  Enclosure enclosure(context);
+  TRY(enclosure.find_components(network, vertices));
+  mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+    TRY(at_patch(mesh_patch(network, vertices, enclosure, p, &scratch, &builder), p));
+    TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
+  }
+  TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+  TRY(split_shared_chords(network, vertices, &builder));
+  TRY(mesh->shape.resize(mesh->patch.size()));
+  for (size_t t = 0; t < mesh->shape.size(); ++t) {
+    const Vec2* corner = &builder.corner[3 * t];
+    mesh->shape[t] = mesh::triangle_shape(corner[0], corner[1], corner[2]);
+  }
+  return {};
+}
+
+}  // namespace wireskin::network

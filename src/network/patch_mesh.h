@@ -1,0 +1,30 @@
+// From cycles to one mesh: every cycle is projected to its plane, triangulated there, and the
+// patches are joined along the curves.
+//
+// In: the vertices on the curves and the cycles. Out: triangles over the curve vertices (first) and
+// the free vertices, each triangle with its shape in its patch's plane, the metric of the paper's
+// method. The plane goes through the mean of the border's positions across the mean of its normals.
+// No vertex is ever added on a curve, so patches conform; a chord between curve vertices that would
+// stand in two patches, or beside a curve, is split by a free vertex. O(n log n). Source: T. Stanko
+// et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3.
+#pragma once
+
+#include "mesh/operators.h"
+#include "network/resample.h"
+
+namespace wireskin::network {
+
+struct PatchMesh {
+  uint32_t vertices = 0;
+  uint32_t curve_vertices = 0;
+  Array<uint32_t> triangle;          // three vertices each
+  Array<uint32_t> patch;             // of each triangle
+  Array<mesh::TriangleShape> shape;  // of each triangle, in its patch's plane
+
+  explicit PatchMesh(Context& context) : triangle(context), patch(context), shape(context) {}
+};
+
+// Fails with patch_without_plane, patch_folded or patch_several_loops, naming the patch.
+Status mesh_patches(const Network& network, const CurveVertices& vertices, PatchMesh* mesh);
+
+}  // namespace wireskin::network

@@ -1,0 +1,27 @@
+// The plane of a patch: through the mean position of its border, across the mean normal.
+//
+// In: the vertices of a cycle in order. Out: plane coordinates, so that a border that runs
+// counter-clockwise seen from the tip of the normal does so in the plane. The first axis points
+// from the mean to the first vertex, so that a rotated network gives rotated patches. O(border).
+// Source: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3.
+#pragma once
+
+#include "network/resample.h"
+
+namespace wireskin::network {
+
+struct Plane {
+  Vec3 origin, u, v, normal;
+
+  Vec2 project(const Vec3& p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
+  double height(const Vec3& p) const { return dot(p - origin, normal); }
+};
+
+// The vertices of patch p's border in order, counter-clockwise.
+Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t p,
+                       Array<uint32_t>* border);
+
+// Fails with patch_without_plane (no place) where the normals cancel out.
+Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Plane* plane);
+
+}  // namespace wireskin::network

@@ -1,0 +1,78 @@
+#include "planar/insertion_order.h"
+
+#include "base/sort.h"
+
+namespace wireskin::planar {
+
+struct OrderKey {
+  uint64_t key;
+  uint32_t index;
+};
+
+static constexpr int k_hilbert_bits = 28;
+
+// The place of the cell (x, y) along the Hilbert curve through 2^bits x 2^bits cells.
+static uint64_t hilbert_place(uint32_t x, uint32_t y) {
+  uint64_t place = 0;
+  for (uint32_t half = 1u << (k_hilbert_bits - 1); half > 0; half >>= 1) {
+    const uint32_t right = (x & half) != 0 ? 1u : 0u;
+    const uint32_t upper = (y & half) != 0 ? 1u : 0u;
+    place = 4 * place + ((3 * right) ^ upper);
+    // The curve enters the lower quarters turned; turn the rest of the coordinates back.
+    if (upper == 0) {
+      if (right != 0) {
+        x = ~x;
+        y = ~y;
+      }
+      const uint32_t kept = x;
+      x = y;
+      y = kept;
+    }
+  }
+  return place;
+}
+
+// Half of the points belong to the last round, a quarter to the one before, and so on, by lot: the
+// lot is drawn from the index, with the mixing of S. Vigna's splitmix64 (2015).
+static uint64_t insertion_round(uint32_t index, uint64_t last_round) {
+  uint64_t z = (index + 1ull) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  z ^= z >> 31;
+  uint64_t round = last_round;
+  for (; round > 0 && (z & 1) != 0; z >>= 1) --round;
+  return round;
+}
+
+Status insertion_order(Span<const Vec2> points, Array<uint32_t>* order) {
+  const size_t count = points.size();
+  Array<OrderKey> keys(order->context());
+  TRY(keys.resize(count));
+  TRY(order->resize(count));
+  if (count == 0) return {};
+  Vec2 low = points[0];
+  Vec2 high = points[0];
+  for (const Vec2& p : points) {
+    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y};
+    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y};
+  }
+  const double extent = std::fmax(high.x - low.x, high.y - low.y);
+  const double cells = static_cast<double>((1u << k_hilbert_bits) - 1);
+  const double step = extent > 0.0 ? cells / extent : 0.0;
+  // The first round should hold a few hundred points at most; more rounds would only lengthen walks.
+  uint64_t last_round = 0;
+  for (size_t rest = count; rest > 256; rest >>= 1) ++last_round;
+  for (uint32_t i = 0; i < count; ++i) {
+    const Vec2 cell = step * (points[i] - low);
+    const uint64_t place =
+        hilbert_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y));
+    keys[i] = {insertion_round(i, last_round) << (2 * k_hilbert_bits) | place, i};
+  }
+  sort(keys.span(), [](const OrderKey& a, const OrderKey& b) {
+    return a.key != b.key ? a.key < b.key : a.index < b.index;
+  });
+  for (size_t i = 0; i < count; ++i) (*order)[i] = keys[i].index;
+  return {};
+}
+
+}  // namespace wireskin::planar

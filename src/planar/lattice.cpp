@@ -1,0 +1,164 @@
+#include "planar/lattice.h"
+
+#include "base/sort.h"
+#include "planar/refine.h"
+
+namespace wireskin::planar {
+
+// Distance between the border and the lattice in spacings. Below the height of a row, 0.866, so that
+// a lattice that fits the border continues it.
+static constexpr double k_clearance = 0.8;
+static constexpr double k_row_height = 0.8660254037844386;
+
+// A border edge in the lattice's frame (unit: one spacing), with the distance that points keep.
+struct ClearedEdge {
+  Vec2 a, b;
+  double radius;
+  double low, high;  // the rows concerned
+  uint32_t index;
+};
+
+// What an edge forbids on one row; `crosses`: the inside begins or ends in between.
+struct ClearedPart {
+  double from, to;
+  uint32_t index;
+  bool crosses;
+};
+
+// Lattice coordinates: origin on the border, first axis along its longest edge.
+struct LatticeFrame {
+  Vec2 origin, axis;
+  double spacing;
+
+  Vec2 enter(Vec2 p) const {
+    const Vec2 d = p - origin;
+    return (1.0 / spacing) * Vec2{dot(axis, d), cross(axis, d)};
+  }
+  Vec2 leave(Vec2 p) const {
+    return origin + spacing * (p.x * axis + p.y * Vec2{-axis.y, axis.x});
+  }
+};
+
+static LatticeFrame frame_of(Span<const Vec2> border, double spacing) {
+  LatticeFrame frame = {border[0], {1.0, 0.0}, spacing};
+  double longest = 0.0;
+  for (size_t i = 0; i < border.size(); ++i) {
+    const Vec2 along = border[i + 1 < border.size() ? i + 1 : 0] - border[i];
+    const double norm = length(along);
+    if (norm > longest * (1.0 + 1e-9)) {  // rounding must not choose between equal edges
+      longest = norm;
+      frame = {border[i], (1.0 / norm) * along, spacing};
+    }
+  }
+  return frame;
+}
+
+static ClearedEdge clear_edge(const LatticeFrame& frame, Vec2 a, Vec2 b, uint32_t index) {
+  ClearedEdge edge = {frame.enter(a), frame.enter(b), 0.0, 0.0, 0.0, index};
+  edge.radius = k_clearance + std::fabs(length(edge.b - edge.a) - 1.0) / k_size_gradient;
+  edge.low = std::fmin(edge.a.y, edge.b.y) - edge.radius;
+  edge.high = std::fmax(edge.a.y, edge.b.y) + edge.radius;
+  return edge;
+}
+
+static void widen_by_disc(Vec2 centre, double radius, double y, ClearedPart* part) {
+  const double half2 = radius * radius - (y - centre.y) * (y - centre.y);
+  if (half2 < 0.0) return;
+  const double half = std::sqrt(half2);
+  part->from = std::fmin(part->from, centre.x - half);
+  part->to = std::fmax(part->to, centre.x + half);
+}
+
+static void widen_by_segment(Vec2 a, Vec2 b, double y, ClearedPart* part) {
+  if ((a.y <= y) == (b.y <= y)) return;
+  const double x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+  part->from = std::fmin(part->from, x);
+  part->to = std::fmax(part->to, x);
+}
+
+// The points within the radius of the edge are two discs and a strip; all of it is convex.
+static ClearedPart cleared_part(const ClearedEdge& edge, double y) {
+  const Vec2 along = edge.b - edge.a;
+  const double norm = length(along);
+  const double scaled = norm > 0.0 ? edge.radius / norm : 0.0;
+  const Vec2 across = {-scaled * along.y, scaled * along.x};
+  ClearedPart part = {DBL_MAX, -DBL_MAX, edge.index, (edge.a.y <= y) != (edge.b.y <= y)};
+  widen_by_disc(edge.a, edge.radius, y, &part);
+  widen_by_disc(edge.b, edge.radius, y, &part);
+  widen_by_segment(edge.a + across, edge.b + across, y, &part);
+  widen_by_segment(edge.a - across, edge.b - across, y, &part);
+  widen_by_segment(edge.a, edge.b, y, &part);
+  return part;
+}
+
+// Adds the lattice points of row `row` that lie inside the polygon and in no cleared part.
+static Status fill_row(const LatticeFrame& frame, double row, Span<ClearedPart> parts,
+                       Array<Vec2>* points) {
+  sort(parts, [](const ClearedPart& p, const ClearedPart& q) {
+    return p.from != q.from ? p.from < q.from : p.index < q.index;
+  });
+  const double shift = 0.5 * (row - 2.0 * std::floor(0.5 * row));
+  double reach = -DBL_MAX;
+  bool inside = false;
+  for (const ClearedPart& part : parts) {
+    if (inside && part.from > reach) {
+      for (double x = std::floor(reach - shift) + 1.0 + shift; x < part.from; x += 1.0) {
+        TRY(points->push(frame.leave({x, k_row_height * row})));
+      }
+    }
+    reach = std::fmax(reach, part.to);
+    inside = inside != part.crosses;
+  }
+  return {};
+}
+
+Status lattice_points(Span<const Vec2> border, double spacing, double expected,
+                      Array<Vec2>* points) {
+  const uint32_t count = static_cast<uint32_t>(border.size());
+  const LatticeFrame frame = frame_of(border, spacing);
+  Array<ClearedEdge> edges(points->context());
+  Array<uint32_t> active(points->context());
+  Array<ClearedPart> parts(points->context());
+  TRY(edges.reserve(count));
+  TRY(active.reserve(count));
+  TRY(parts.reserve(count));
+  points->clear();
+  double low = DBL_MAX;
+  double high = -DBL_MAX;
+  for (uint32_t i = 0; i < count; ++i) {
+    edges.push_reserved(clear_edge(frame, border[i], border[i + 1 < count ? i + 1 : 0], i));
+    low = std::fmin(low, edges[i].a.y);
+    high = std::fmax(high, edges[i].a.y);
+  }
+  double work = (high - low) / k_row_height;
+  for (ClearedEdge& edge : edges) {
+    edge.low = std::fmax(edge.low, low);
+    edge.high = std::fmin(edge.high, high);
+    work += (edge.high - edge.low) / k_row_height;
+  }
+  if (!(work < 16.0 * expected + 64.0 * count)) return {};
+  sort(edges.span(), [](const ClearedEdge& p, const ClearedEdge& q) {
+    return p.low != q.low ? p.low < q.low : p.index < q.index;
+  });
+  size_t coming = 0;
+  for (double row = std::ceil(low / k_row_height); row * k_row_height < high; row += 1.0) {
+    const double y = row * k_row_height;
+    for (; coming < count && edges[coming].low <= y; ++coming) {
+      active.push_reserved(static_cast<uint32_t>(coming));
+    }
+    parts.clear();
+    size_t kept = 0;
+    for (const uint32_t i : active) {
+      if (edges[i].high < y) continue;
+      active[kept++] = i;
+      parts.push_reserved(cleared_part(edges[i], y));
+    }
+    active.shrink(kept);
+    TRY(fill_row(frame, row, parts.span(), points));
+    if (points->size() > k_most_vertices) break;
+    TRY(points->context().checkpoint());
+  }
+  return {};
+}
+
+}  // namespace wireskin::planar

@@ -1,0 +1,114 @@
+#include "planar/relax.h"
+
+#include "num/predicates.h"
+
+namespace wireskin::planar {
+
+// Squared sine of the angle that a move may not fall below even if others gain: 40 degrees.
+static constexpr double k_good_sine2 = 0.41317591116653485;
+
+// Squared sine of the least angle. It lies opposite the shortest side, and its sine is twice the area
+// over the product of the other two.
+static double least_sine2(Vec2 a, Vec2 b, Vec2 c) {
+  const double ab = dot(b - a, b - a);
+  const double bc = dot(c - b, c - b);
+  const double ca = dot(a - c, a - c);
+  const double shortest = std::fmin(ab, std::fmin(bc, ca));
+  const double area2 = cross(b - a, c - a);
+  return area2 * area2 * shortest / (ab * bc * ca);
+}
+
+// The least of that in the triangles round a vertex if it were at p; 0 if one of them did not turn
+// left. `h` leaves the vertex.
+static double star_quality(const Triangulation& t, uint32_t h, Vec2 p) {
+  double least = 1.0;
+  uint32_t spoke = h;
+  do {
+    const Vec2 b = t.points[t.end(spoke)];
+    const Vec2 c = t.points[t.apex(spoke)];
+    if (!(orient2d(p, b, c) > 0.0)) return 0.0;
+    const double sine2 = least_sine2(p, b, c);
+    if (!(sine2 >= least)) least = sine2;
+    spoke = t.turn(spoke);
+  } while (spoke != h);
+  return least;
+}
+
+// The mean of the places at which single neighbours would like to have the vertex.
+static Vec2 wished_place(const Triangulation& t, Span<const double> sizes, uint32_t h) {
+  const uint32_t vertex = t.start(h);
+  const Vec2 p = t.points[vertex];
+  Vec2 sum;
+  double count = 0.0;
+  uint32_t spoke = h;
+  do {
+    const uint32_t neighbour = t.end(spoke);
+    const Vec2 q = t.points[neighbour];
+    const double wished = 0.5 * (sizes[vertex] + sizes[neighbour]);
+    sum = sum + q + (wished / length(p - q)) * (p - q);
+    count += 1.0;
+    spoke = t.turn(spoke);
+  } while (spoke != h);
+  return (1.0 / count) * sum;
+}
+
+static void move_vertex(Triangulation* t, Span<const double> sizes, uint32_t vertex) {
+  const uint32_t h = t->leaving[vertex];
+  const Vec2 p = t->points[vertex];
+  const double before = star_quality(*t, h, p);
+  const double needed = before < k_good_sine2 ? before : k_good_sine2;
+  const Vec2 step = wished_place(*t, sizes, h) - p;
+  for (double part = 1.0; part > 0.25; part *= 0.5) {
+    const Vec2 moved = p + part * step;
+    if (star_quality(*t, h, moved) > needed) {
+      t->points[vertex] = moved;
+      return;
+    }
+  }
+}
+
+static bool should_flip(const Triangulation& t, uint32_t h) {
+  const uint32_t g = t.twin(h);
+  if (g == k_none || t.constrained(h)) return false;
+  return incircle(t.points[t.start(h)], t.points[t.end(h)], t.points[t.apex(h)],
+                  t.points[t.apex(g)]) > 0.0;
+}
+
+// Every edge once, and after a flip the four round it again. A half-edge on the stack may have become
+// another edge meanwhile; looking at it does no harm, and the edge that it was is there as well.
+static Status restore_delaunay(Triangulation* t) {
+  t->stack.clear();
+  for (uint32_t i = 0; i < t->triangles.size(); ++i) {
+    if ((t->triangles[i].flags & k_outside) != 0) continue;
+    for (uint32_t h = 4 * i; h < 4 * i + 3; ++h) {
+      if (t->twin(h) > h) TRY(t->stack.push(h));
+      while (!t->stack.empty()) {
+        const uint32_t edge = t->stack.back();
+        t->stack.pop();
+        if (!should_flip(*t, edge)) continue;
+        const uint32_t g = t->twin(edge);
+        flip(t, edge);
+        TRY(t->stack.push(edge));
+        TRY(t->stack.push(Triangulation::previous(edge)));
+        TRY(t->stack.push(g));
+        TRY(t->stack.push(Triangulation::previous(g)));
+      }
+    }
+  }
+  return {};
+}
+
+Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, int sweeps) {
+  Context& context = t->points.context();
+  const uint32_t count = static_cast<uint32_t>(t->points.size());
+  for (int sweep = 0; sweep < sweeps && first_free < count; ++sweep) {
+    for (uint32_t v = first_free; v < count; ++v) {
+      if (v % 16384 == 0) TRY(context.checkpoint());
+      move_vertex(t, sizes, v);
+    }
+    TRY(restore_delaunay(t));
+  }
+  return {};
+}
+
+}  // namespace wireskin::planar

@@ -1,0 +1,110 @@
+#include "smooth/smooth.h"
+
+#include "mesh/curvature.h"
+#include "smooth/system.h"
+
+namespace wireskin::smooth {
+
+// How much a held vertex's row weighs against a free one's in the clamped method: the constraint is
+// a penalty, as in "smoothing with the Laplacian prescribed on the curves".
+static constexpr double k_clamp_penalty = 1e5;
+
+// Adds to each border vertex its outer conormal, integrated over half of each of its border edges.
+static Status add_conormals(Context& context, const Domain& domain, const Field& field,
+                            Span<Vec3> conormal) {
+  Array<uint32_t> twins(context);
+  const uint32_t n = static_cast<uint32_t>(field.position.size());
+  TRY(mesh::find_twins(n, domain.triangle, &twins));
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] != k_none) continue;
+    const uint32_t a = domain.triangle[h], b = domain.triangle[mesh::next_half_edge(h)];
+    const Vec3 edge = field.position[b] - field.position[a];
+    const Vec3 half = 0.5 * cross(edge, unit(field.normal[a] + field.normal[b]));
+    conormal[a] += half;
+    conormal[b] += half;
+  }
+  return {};
+}
+
+// The inverse mixed Voronoi areas; zero for rows that are left out.
+static void row_weights(const Domain& domain, bool border_rows, Span<const double> area,
+                        Span<double> weight) {
+  for (size_t v = 0; v < weight.size(); ++v) {
+    weight[v] = domain.on_border[v] && !border_rows ? 0.0 : 1.0 / area[v];
+  }
+}
+
+namespace {
+
+// The steps of the methods that use normals share these.
+struct Guided {
+  System system;
+  Array<double> area, weight, curvature;
+  Array<Vec3> conormal, target;
+
+  explicit Guided(Context& context)
+      : system(context),
+        area(context),
+        weight(context),
+        curvature(context),
+        conormal(context),
+        target(context) {}
+};
+
+}  // namespace
+
+// Normals and positions spread from the curves: N* (unit) and V*.
+static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
+                        double* residual) {
+  const size_t n = field.position.size();
+  TRY(guided->conormal.assign(n, Vec3{}));
+  TRY(guided->target.resize(n));
+  if (domain.metric == Metric::space) {
+    TRY(add_conormals(context, domain, field, guided->conormal.span()));
+  }
+  for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
+  TRY(guided->system.solve({}, field.normal, residual));
+  for (Vec3& normal : field.normal) normal = unit(normal);
+  return guided->system.solve(guided->target.span(), field.position, residual);
+}
+
+// The final fit: Laplacians of the propagated curvature as targets, everywhere (the paper's method)
+// or on the held vertices alone (the clamped one).
+static Status fit(const Domain& domain, Method method, const Field& field, Guided* guided,
+                  double* residual) {
+  const bool clamped = method == Method::clamped;
+  for (size_t v = 0; v < field.position.size(); ++v) {
+    const bool guides = !clamped || domain.held[v];
+    const double scale = guides ? -2.0 * guided->area[v] * guided->curvature[v] : 0.0;
+    guided->target[v] = scale * field.normal[v] - guided->conormal[v];
+    if (clamped && domain.held[v]) guided->weight[v] *= k_clamp_penalty;
+  }
+  if (clamped) TRY(guided->system.factor(guided->weight.span()));
+  return guided->system.solve(guided->target.span(), field.position, residual);
+}
+
+Status smooth(Context& context, const Domain& domain, Method method, const Field& field,
+              double* residual) {
+  TRY(context.enter(Stage::operators));
+  const uint32_t n = static_cast<uint32_t>(field.position.size());
+  const bool uses_normals = method == Method::stanko || method == Method::clamped;
+  sparse::Csc laplacian(context);
+  Guided guided(context);
+  TRY(mesh::cotangent_laplacian(n, domain.triangle, domain.shape, &laplacian));
+  TRY(guided.area.resize(n));
+  TRY(guided.weight.resize(n));
+  mesh::mixed_voronoi_areas(domain.triangle, domain.shape, guided.area.span());
+  row_weights(domain, uses_normals && domain.metric == Metric::space, guided.area.span(),
+              guided.weight.span());
+  const Order order = method == Method::triharmonic ? Order::three : Order::two;
+  TRY(guided.system.prepare(laplacian, domain.held, order));
+  TRY(guided.system.factor(guided.weight.span()));
+  if (!uses_normals) return guided.system.solve({}, field.position, residual);
+  TRY(propagate(context, domain, field, &guided, residual));
+  TRY(context.enter(Stage::operators));
+  TRY(mesh::mean_curvature(field.position, field.normal, domain.triangle, domain.on_border,
+                           &guided.curvature));
+  return fit(domain, method, field, &guided, residual);
+}
+
+}  // namespace wireskin::smooth

@@ -1,0 +1,43 @@
+// Positions of the free vertices from positions and normals on the curves: the method of the paper
+// and those it is compared with, all by linear solves.
+//
+// In: a mesh with the shape of each triangle in the metric to smooth in (each patch's plane, or
+// space), held vertices with positions and unit normals. Out: all positions, the propagated normals
+// (unit, for the methods that use them) and the residual of the last solve.
+//
+// The paper's method propagates normals N and positions V biharmonically, takes from them the mean
+// curvature h of formula (1), and finds the positions whose Laplacian fits -2 h N best: one matrix
+// K = L M^-1 L, factored once, for all three.
+//
+// Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its
+// row is left out. In space it is known up to the outer conormal c of the border (L v + c = -2 h m
+// n), so the row stays, with c taken from the positions and normals given on the border. Source: T.
+// Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, sections 3.4 and 4.2.
+#pragma once
+
+#include "mesh/operators.h"
+
+namespace wireskin::smooth {
+
+enum class Method { stanko = 0, biharmonic = 1, triharmonic = 2, clamped = 3 };
+
+enum class Metric { planes, space };
+
+struct Domain {
+  Span<const uint32_t> triangle;
+  Span<const mesh::TriangleShape> shape;  // of each triangle
+  Span<const uint8_t> held;               // of each vertex
+  Span<const uint8_t> on_border;          // of each vertex; border vertices are held
+  Metric metric = Metric::planes;
+};
+
+// Position and normal of every vertex: in, those of the held ones; out, all.
+struct Field {
+  Span<Vec3> position;
+  Span<Vec3> normal;
+};
+
+Status smooth(Context& context, const Domain& domain, Method method, const Field& field,
+              double* residual);
+
+}  // namespace wireskin::smooth

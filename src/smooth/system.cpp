@@ -1,0 +1,127 @@
+#include "smooth/system.h"
+
+#include "sparse/ordering.h"
+#include "sparse/product.h"
+
+namespace wireskin::smooth {
+
+// y = A x for a symmetric matrix with both halves stored: column j is row j.
+static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+  for (uint32_t j = 0; j < a.cols; ++j) {
+    Vec3 sum;
+    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
+    y[j] = sum;
+  }
+}
+
+Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order) {
+  laplacian_ = &laplacian;
+  order_ = order;
+  analysed_ = false;
+  unknowns_ = 0;
+  TRY(unknown_.resize(fixed.size()));
+  for (size_t v = 0; v < fixed.size(); ++v) unknown_[v] = fixed[v] ? k_none : unknowns_++;
+  TRY(rhs_.resize(size_t{3} * unknowns_));
+  TRY(solution_.resize(size_t{3} * unknowns_));
+  return work_.resize(size_t{3} * unknowns_);
+}
+
+Status System::factor(Span<const double> weight) {
+  Context& context = weight_.context();
+  TRY(context.enter(Stage::operators));
+  TRY(weight_.copy(weight));
+  if (unknowns_ == 0) return {};
+  if (order_ == Order::two) {
+    TRY(sparse::weighted_product(*laplacian_, weight, *laplacian_, unknown_.span(), unknowns_,
+                                 sparse::Part::lower, &matrix_));
+  } else {
+    Array<uint32_t> all(context);
+    Array<double> minus(context);
+    sparse::Csc squared(context);
+    TRY(all.resize(weight.size()));
+    TRY(minus.resize(weight.size()));
+    for (uint32_t v = 0; v < weight.size(); ++v) {
+      all[v] = v;
+      minus[v] = -weight[v];
+    }
+    TRY(sparse::weighted_product(*laplacian_, weight, *laplacian_, all.span(), laplacian_->cols,
+                                 sparse::Part::all, &squared));
+    TRY(sparse::weighted_product(squared, minus.span(), *laplacian_, unknown_.span(), unknowns_,
+                                 sparse::Part::lower, &matrix_));
+  }
+  TRY(context.enter(Stage::factor));
+  if (!analysed_) {
+    Array<uint32_t> order(context);
+    TRY(sparse::minimum_degree(matrix_, &order));
+    TRY(factor_.analyse(matrix_, order.span()));
+    analysed_ = true;
+  }
+  return factor_.factor(matrix_);
+}
+
+// L W (T - L v) at the free vertices, v with the free values at zero; for order 3, L W L W L v.
+Status System::right_hand_side(Span<const Vec3> target, Span<const Vec3> value) {
+  Context& context = weight_.context();
+  Array<Vec3> a(context), b(context);
+  TRY(a.resize(value.size()));
+  TRY(b.resize(value.size()));
+  for (size_t v = 0; v < value.size(); ++v) a[v] = unknown_[v] == k_none ? value[v] : Vec3{};
+  multiply_vectors(*laplacian_, a.span(), b.span());
+  for (size_t v = 0; v < value.size(); ++v) {
+    const Vec3 missing = target.empty() ? -b[v] : target[v] - b[v];
+    b[v] = weight_[v] * missing;
+  }
+  multiply_vectors(*laplacian_, b.span(), a.span());
+  if (order_ == Order::three) {
+    for (size_t v = 0; v < value.size(); ++v) b[v] = -weight_[v] * a[v];
+    multiply_vectors(*laplacian_, b.span(), a.span());
+  }
+  for (size_t v = 0; v < value.size(); ++v) {
+    if (unknown_[v] == k_none) continue;
+    double* row = &rhs_[size_t{3} * unknown_[v]];
+    row[0] = a[v].x, row[1] = a[v].y, row[2] = a[v].z;
+  }
+  return {};
+}
+
+// What the solution leaves of the right-hand side, and its size relative to that, the greatest of
+// the three columns.
+double System::residual_of(Span<double> residual) const {
+  sparse::multiply_symmetric(matrix_, solution_.span(), residual, 3);
+  double left[3] = {}, whole[3] = {};
+  for (size_t i = 0; i < residual.size(); ++i) {
+    residual[i] = rhs_[i] - residual[i];
+    left[i % 3] += residual[i] * residual[i];
+    whole[i % 3] += rhs_[i] * rhs_[i];
+  }
+  double worst = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const double ratio = whole[c] > 0.0 ? std::sqrt(left[c] / whole[c]) : 0.0;
+    if (ratio > worst) worst = ratio;
+  }
+  return worst;
+}
+
+Status System::solve(Span<const Vec3> target, Span<Vec3> value, double* residual) {
+  TRY(weight_.context().enter(Stage::solve));
+  *residual = 0.0;
+  if (unknowns_ == 0) return {};
+  TRY(right_hand_side(target, value));
+  TRY(solution_.copy(rhs_.span()));
+  TRY(factor_.solve(solution_.span(), 3));
+  *residual = residual_of(work_.span());
+  constexpr double k_good = 1e-12;
+  if (*residual > k_good) {  // one step of iterative refinement
+    TRY(factor_.solve(work_.span(), 3));
+    for (size_t i = 0; i < work_.size(); ++i) solution_[i] += work_[i];
+    *residual = residual_of(work_.span());
+  }
+  for (size_t v = 0; v < value.size(); ++v) {
+    if (unknown_[v] == k_none) continue;
+    const double* row = &solution_[size_t{3} * unknown_[v]];
+    value[v] = {row[0], row[1], row[2]};
+  }
+  return {};
+}
+
+}  // namespace wireskin::smooth

@@ -1,0 +1,56 @@
+// The linear systems of variational smoothing: vertex values that minimise the weighted square of
+// their Laplacian, with some vertices held.
+//
+// Order 2 minimises sum_r w_r |(L v)_r - T_r|^2 over the free values, with the matrix K = L W L;
+// order 3 minimises the Dirichlet energy of W L v, with L W (-L) W L (targets zero). L is the
+// integrated cotangent Laplacian, w the inverse vertex areas; a weight of zero leaves a row out. K
+// is positive definite when every component holds a vertex and the free rows stay in. One factor
+// serves any number of right-hand sides; new weights keep the ordering and the symbolic analysis.
+// Cost: see sparse/cholesky.h. Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time
+// Freeform Modeling", 2004.
+#pragma once
+
+#include "num/vec.h"
+#include "sparse/cholesky.h"
+#include "sparse/csc.h"
+
+namespace wireskin::smooth {
+
+enum class Order { two = 2, three = 3 };
+
+class System {
+ public:
+  explicit System(Context& context)
+      : unknown_(context),
+        matrix_(context),
+        factor_(context),
+        weight_(context),
+        rhs_(context),
+        solution_(context),
+        work_(context) {}
+
+  // `laplacian` must outlive the system. Numbers the unknowns.
+  Status prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order);
+  // Assembles and factors with these row weights; may be called again.
+  Status factor(Span<const double> weight);
+  // In: the held values, and the target of every row (empty: zero). Out: the free values.
+  // `residual`: the greatest relative residual of the three columns after one step of refinement
+  // where needed.
+  Status solve(Span<const Vec3> target, Span<Vec3> value, double* residual);
+
+ private:
+  Status right_hand_side(Span<const Vec3> target, Span<const Vec3> value);
+  double residual_of(Span<double> residual) const;
+
+  const sparse::Csc* laplacian_ = nullptr;
+  Order order_ = Order::two;
+  bool analysed_ = false;
+  uint32_t unknowns_ = 0;
+  Array<uint32_t> unknown_;  // number of each vertex among the unknowns, k_none where held
+  sparse::Csc matrix_;
+  sparse::Cholesky factor_;
+  Array<double> weight_;
+  Array<double> rhs_, solution_, work_;  // three columns, row by row
+};
+
+}  // namespace wireskin::smooth

@@ -1,0 +1,91 @@
+#include "sparse/csc.h"
+
+namespace wireskin::sparse {
+
+bool is_lower_triangle(const Csc& a) {
+  if (a.rows != a.cols || a.start.size() != size_t{a.cols} + 1 || a.start[0] != 0) return false;
+  if (a.row.size() != a.value.size() || a.row.size() != a.start[a.cols]) return false;
+  for (uint32_t j = 0; j < a.cols; ++j) {
+    if (a.start[j] >= a.start[j + 1] || a.row[a.start[j]] != j) return false;
+    for (uint32_t k = a.start[j] + 1; k < a.start[j + 1]; ++k) {
+      if (a.row[k] <= a.row[k - 1] || a.row[k] >= a.rows) return false;
+    }
+  }
+  return true;
+}
+
+void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns) {
+  WIRESKIN_ASSERT(x.size() == size_t{lower.cols} * columns && y.size() == x.size());
+  for (double& entry : y) entry = 0.0;
+  for (uint32_t j = 0; j < lower.cols; ++j) {
+    const double* xj = x.data() + size_t{j} * columns;
+    double* yj = y.data() + size_t{j} * columns;
+    const uint32_t diagonal = lower.start[j];
+    for (uint32_t c = 0; c < columns; ++c) yj[c] += lower.value[diagonal] * xj[c];
+    for (uint32_t k = diagonal + 1; k < lower.start[j + 1]; ++k) {
+      const double a = lower.value[k];
+      const double* xi = x.data() + size_t{lower.row[k]} * columns;
+      double* yi = y.data() + size_t{lower.row[k]} * columns;
+      for (uint32_t c = 0; c < columns; ++c) {
+        yi[c] += a * xj[c];
+        yj[c] += a * xi[c];
+      }
+    }
+  }
+}
+
+Status transpose(const Csc& a, Csc* result) {
+  const size_t entries = a.row.size();
+  TRY(result->start.assign(size_t{a.rows} + 1, 0));
+  TRY(result->row.resize(entries));
+  TRY(result->value.resize(entries));
+  Array<uint32_t> next(a.start.context());
+  TRY(next.reserve(size_t{a.rows} + 1));
+  for (const uint32_t i : a.row) ++result->start[i];
+  starts_from_counts(result->start.span());
+  TRY(next.copy(result->start.span()));
+  for (uint32_t j = 0; j < a.cols; ++j) {
+    for (uint32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
+      const uint32_t to = next[a.row[k]]++;
+      result->row[to] = j;
+      result->value[to] = a.value[k];
+    }
+  }
+  result->rows = a.cols;
+  result->cols = a.rows;
+  return {};
+}
+
+Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle triangle,
+                       Pattern* result) {
+  Context& context = lower.start.context();
+  const uint32_t n = lower.cols;
+  TRY(result->start.assign(size_t{n} + 1, 0));
+  TRY(result->index.resize(lower.row.size()));
+  TRY(result->source.resize(lower.row.size()));
+  Array<uint32_t> next(context);
+  TRY(next.resize(size_t{n} + 1));
+  const bool by_smaller = triangle == Triangle::lower;
+  for (uint32_t j = 0; j < n; ++j) {
+    TRY(checkpoint_at_column(context, j));
+    for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
+      const uint32_t a = position[lower.row[k]], b = position[j];
+      ++result->start[(a < b) == by_smaller ? a : b];
+    }
+  }
+  starts_from_counts(result->start.span());
+  for (uint32_t j = 0; j <= n; ++j) next[j] = result->start[j];
+  for (uint32_t j = 0; j < n; ++j) {
+    TRY(checkpoint_at_column(context, j));
+    for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
+      const uint32_t a = position[lower.row[k]], b = position[j];
+      const uint32_t column = (a < b) == by_smaller ? a : b;
+      const uint32_t to = next[column]++;
+      result->index[to] = column == a ? b : a;
+      result->source[to] = k;
+    }
+  }
+  return {};
+}
+
+}  // namespace wireskin::sparse

@@ -1,0 +1,74 @@
+// The pipeline as one readable page: curves -> network -> patches -> smooth -> mesh; and the
+// shorter one for a mesh of the caller's, -> smooth -> mesh.
+//
+// In: checked, finite input with unit normals, scaled so that its extent is about one (api.cpp does
+// both). Out: a Surface. Counts are filled in as the work goes on, so that a failure can be
+// reported with them.
+#pragma once
+
+#include "base/array.h"
+#include "num/vec.h"
+#include "smooth/smooth.h"
+
+namespace wireskin {
+
+// All curves one after the other; curve c has the samples start[c] .. start[c + 1). Positions and
+// normals of nodes are made equal in place.
+struct CurveSet {
+  Span<const uint32_t> start;
+  Span<Vec3> position;
+  Span<Vec3> normal;             // unit
+  Span<const uint32_t> number;   // the caller's node numbers, k_none for ordinary samples
+  Span<const uint8_t> closed;    // of each curve
+  Span<const uint8_t> boundary;  // of each curve
+};
+
+struct TriangleSet {
+  Span<const Vec3> position;
+  Span<const Vec3> normal;  // unit where held; empty if there are none
+  Span<const uint8_t> held;
+  Span<const uint32_t> triangle;
+};
+
+struct Counts {
+  uint32_t curves = 0, nodes = 0, segments = 0, patches = 0;
+  uint32_t vertices = 0, free_vertices = 0, triangles = 0;
+  uint32_t components = 0, boundary_loops = 0;
+  int32_t euler_characteristic = 0;
+  double spacing = 0.0;
+  double least_angle = 0.0;  // degrees
+  double residual = 0.0;
+};
+
+struct Surface {
+  Counts counts;
+  Array<Vec3> position;
+  Array<Vec3> normal;  // of the mesh
+  Array<double> mean_curvature;
+  Array<uint32_t> vertex_curve;   // k_none where free
+  Array<Vec3> constraint_normal;  // zero where free
+  Array<uint32_t> triangle;
+  Array<uint32_t> patch;       // of each triangle
+  Array<uint32_t> curve_edge;  // two vertices each
+  Array<uint32_t> curve_edge_curve;
+
+  explicit Surface(Context& context)
+      : position(context),
+        normal(context),
+        mean_curvature(context),
+        vertex_curve(context),
+        constraint_normal(context),
+        triangle(context),
+        patch(context),
+        curve_edge(context),
+        curve_edge_curve(context) {}
+};
+
+// `spacing` 0: a hundredth of the diagonal of the bounding box.
+Status surface_curves(Context& context, const CurveSet& curves, smooth::Method method,
+                      double spacing, Surface* surface);
+
+Status surface_triangles(Context& context, const TriangleSet& mesh, smooth::Method method,
+                         Surface* surface);
+
+}  // namespace wireskin
