@@ -1,0 +1,207 @@
+#include "arguments.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "failure.h"
+#include "files.h"
+#include "scan.h"
+
+namespace wireskin_cli {
+
+namespace {
+
+// In the order of the numbers of wsk_method.
+constexpr const char* k_method_names[WSK_METHOD_COUNT] = {"stanko", "biharmonic", "triharmonic",
+                                                          "clamped"};
+
+constexpr const char* k_help = R"(wireskin - a smooth surface through a network of curves
+
+usage: wireskin [options] INPUT -o OUTPUT
+
+INPUT is a network of curves with surface normals:
+  .net   the number of vertices, a row x y z nx ny nz for each, the number of curves, and for
+         each curve a line 0 or 1 (1: boundary) and a line of vertex indices from 0
+  .obj   v, vn (one for each v, in the same order) and l with any number of indices; all else is
+         passed over. Curves after a g or o whose name contains "boundary" are boundary curves.
+Curves meet where they share a vertex. A curve is closed if its last index repeats its first.
+Boundary curves are those where the surface ends. Normals point to the outer side.
+
+OUTPUT is the surface:
+  .obj   positions, normals, a group patch_K for each patch
+  .ply   binary: positions, normals, mean curvature, the patch of each triangle
+  .stl   binary: triangles
+
+options:
+  -o OUTPUT          where to write the surface
+  --spacing LENGTH   distance of vertices along the curves, in the units of the input
+                     (default: a hundredth of the diagonal of the bounding box)
+  --method NAME      stanko (default): mean curvature follows the normals
+                     biharmonic, triharmonic: least square Laplacian, normals not used
+                     clamped: biharmonic with curvature prescribed on the curves
+  --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
+                     written too, with the place of the fault, if no surface can be built
+  --image FILE.png   write a shaded picture with isophote stripes and the curves
+  --quiet            no progress, no summary
+  --help             print this
+  --version          print the version
+
+Errors are one line, "FILE:LINE: what is wrong" or "FILE: curve 3, sample 17: what is wrong".
+Curves, samples, nodes and patches are numbered from 0 in messages and reports, lines from 1; a
+node's number is the index of its vertex, from 0. Output files are complete or absent.
+
+exit status: 0 done, 1 the files or the network are at fault, 2 wrong usage
+)";
+
+[[noreturn]] void wrong_usage(const std::string& what) {
+  throw Failure("wireskin: " + what + " (see wireskin --help)", 2);
+}
+
+wsk_method method_of(const std::string& name) {
+  std::string known;
+  for (wsk_method method = 0; method < WSK_METHOD_COUNT; ++method) {
+    if (name == k_method_names[method]) return method;
+    known += (method == 0 ? "" : ", ") + std::string(k_method_names[method]);
+  }
+  wrong_usage("unknown method " + in_quotes(name) + ", known are " + known);
+}
+
+double spacing_of(const std::string& text) {
+  double spacing = 0.0;
+  if (!parse_double(text, &spacing) || !(spacing > 0.0) || !std::isfinite(spacing)) {
+    wrong_usage("--spacing needs a length above zero, not " + in_quotes(text));
+  }
+  return spacing;
+}
+
+// Splits "--name=value"; takes the value from the next word otherwise.
+class Words {
+ public:
+  explicit Words(const std::vector<std::string>& words) : words_(words) {}
+
+  bool next() {
+    if (at_ == words_.size()) return false;
+    word_ = words_[at_++];
+    name_ = word_;
+    const size_t equals = name_.compare(0, 2, "--") == 0 ? name_.find('=') : std::string::npos;
+    has_value_ = equals != std::string::npos;
+    if (has_value_) {
+      value_ = name_.substr(equals + 1);
+      name_.resize(equals);
+    }
+    return true;
+  }
+  const std::string& word() const { return word_; }
+  bool is(const char* name) const { return name_ == name; }
+  bool is_flag(const char* name) const {
+    if (!is(name)) return false;
+    if (has_value_) wrong_usage(name_ + " takes no value");
+    return true;
+  }
+  std::string value() {
+    if (!has_value_) {
+      if (at_ == words_.size()) wrong_usage(name_ + " needs a value");
+      value_ = words_[at_++];
+    }
+    if (value_.empty()) wrong_usage(name_ + " needs a value");
+    return value_;
+  }
+
+ private:
+  const std::vector<std::string>& words_;
+  size_t at_ = 0;
+  std::string word_;
+  std::string name_;
+  std::string value_;
+  bool has_value_ = false;
+};
+
+void take_input(const std::string& word, Arguments& arguments) {
+  if (word.empty()) wrong_usage("the name of the input is empty");
+  if (!arguments.input.empty()) wrong_usage("more than one input: " + in_quotes(word));
+  arguments.input = word;
+}
+
+// True if the word was an option.
+bool take_option(Words& words, Arguments& arguments) {
+  if (words.is_flag("--help") || words.is_flag("-h")) {
+    arguments.help = true;
+  } else if (words.is_flag("--version")) {
+    arguments.version = true;
+  } else if (words.is_flag("--quiet")) {
+    arguments.quiet = true;
+  } else if (words.is("-o")) {
+    arguments.output = words.value();
+  } else if (words.is("--spacing")) {
+    arguments.spacing = spacing_of(words.value());
+  } else if (words.is("--method")) {
+    arguments.method = method_of(words.value());
+  } else if (words.is("--report")) {
+    arguments.report = words.value();
+  } else if (words.is("--image")) {
+    arguments.image = words.value();
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  return fs::path(a).lexically_normal() == fs::path(b).lexically_normal();
+}
+
+void check_files(const Arguments& arguments) {
+  if (arguments.input.empty()) wrong_usage("no input file");
+  if (arguments.output.empty()) wrong_usage("no output file, give one with -o");
+  const std::string extension = extension_of(arguments.output);
+  if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
+    wrong_usage("unknown output format " + in_quotes(extension) +
+                ", known are .obj, .ply and .stl");
+  }
+  if (!arguments.image.empty() && extension_of(arguments.image) != ".png") {
+    wrong_usage("--image writes PNG, the name must end in .png");
+  }
+  const std::string files[] = {arguments.input, arguments.output, arguments.report,
+                               arguments.image};
+  for (size_t i = 0; i < 4; ++i) {
+    for (size_t k = i + 1; k < 4; ++k) {
+      if (files[i].empty() || files[k].empty() || !same_file(files[i], files[k])) continue;
+      wrong_usage("two of the files are the same: " + in_quotes(files[k]));
+    }
+  }
+}
+
+}  // namespace
+
+Arguments parse_arguments(const std::vector<std::string>& list) {
+  Arguments arguments;
+  Words words(list);
+  bool options_end = false;
+  while (words.next()) {
+    if (options_end) {
+      take_input(words.word(), arguments);
+    } else if (words.is("--")) {
+      options_end = true;
+    } else if (!take_option(words, arguments)) {
+      const bool dashed = words.word().size() > 1 && words.word()[0] == '-';
+      if (dashed) wrong_usage("unknown option " + in_quotes(words.word()));
+      take_input(words.word(), arguments);
+    }
+    if (arguments.help || arguments.version) return arguments;
+  }
+  check_files(arguments);
+  return arguments;
+}
+
+const char* help_text() {
+  return k_help;
+}
+
+const char* method_name(wsk_method method) {
+  return k_method_names[method];
+}
+
+}  // namespace wireskin_cli

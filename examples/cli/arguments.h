@@ -1,0 +1,31 @@
+// The command line: parsing, the text of --help, the names of the methods.
+//
+// Wrong usage is a Failure of one line with exit status 2 that points to --help.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wireskin.h"
+
+namespace wireskin_cli {
+
+struct Arguments {
+  std::string input;
+  std::string output;
+  std::string report;  // "" for none, like image
+  std::string image;
+  double spacing = 0.0;  // 0: the library's default
+  wsk_method method = WSK_METHOD_STANKO;
+  bool quiet = false;
+  bool help = false;
+  bool version = false;
+};
+
+// `words` without the name of the command. With --help or --version the rest is not looked at.
+Arguments parse_arguments(const std::vector<std::string>& words);
+
+const char* help_text();
+const char* method_name(wsk_method method);
+
+}  // namespace wireskin_cli

@@ -1,0 +1,16 @@
+// The surface seen from two sides, shaded, with isophotes and the curves.
+//
+// Isophotes are stripes of equal angle between the normal and a fixed direction: they are smooth
+// where curvature is, have kinks where only the normal is continuous, and break where it is not.
+// Boundary curves have a colour of their own, and so has the surface's inner side.
+#pragma once
+
+#include "image.h"
+#include "network.h"
+#include "wireskin.h"
+
+namespace wireskin_cli {
+
+Image draw_picture(const wsk_surface_view& surface, const Network& network);
+
+}  // namespace wireskin_cli

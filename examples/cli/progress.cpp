@@ -1,0 +1,70 @@
+#include "progress.h"
+
+#include <csignal>
+#include <cstdio>
+
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
+
+namespace wireskin_cli {
+
+static volatile std::sig_atomic_t signal_came = 0;
+
+static void note_signal(int) {
+  signal_came = 1;
+}
+
+void catch_signals() {
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+#ifdef SIGXFSZ
+  // A file beyond the size limit is then an error of the write, which is reported, not a death.
+  std::signal(SIGXFSZ, SIG_IGN);
+#endif
+}
+
+bool cancel_wanted() {
+  return signal_came != 0;
+}
+
+static bool stderr_is_terminal() {
+#ifdef _WIN32
+  return _isatty(_fileno(stderr)) != 0;
+#else
+  return isatty(STDERR_FILENO) != 0;
+#endif
+}
+
+ProgressLine::ProgressLine(bool wanted)
+    : wanted_(wanted && stderr_is_terminal()),
+      next_(Clock::now() + std::chrono::milliseconds(500)) {}
+
+void ProgressLine::show(wsk_stage stage, double fraction) {
+  if (!wanted_ || Clock::now() < next_) return;
+  next_ = Clock::now() + std::chrono::milliseconds(100);
+  std::fprintf(stderr, "\r%-9s %3.0f %%", wsk_stage_name(stage), 100.0 * fraction);
+  std::fflush(stderr);
+  on_screen_ = true;
+}
+
+void ProgressLine::clear() {
+  if (!on_screen_) return;
+  std::fprintf(stderr, "\r%15s\r", "");
+  std::fflush(stderr);
+  on_screen_ = false;
+}
+
+BuildCallbacks ProgressLine::callbacks() {
+  BuildCallbacks callbacks;
+  callbacks.cancel = [](void*) -> int32_t { return cancel_wanted() ? 1 : 0; };
+  callbacks.progress = [](wsk_stage stage, double fraction, void* user) {
+    static_cast<ProgressLine*>(user)->show(stage, fraction);
+  };
+  callbacks.user = this;
+  return callbacks;
+}
+
+}  // namespace wireskin_cli

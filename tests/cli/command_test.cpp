@@ -1,0 +1,324 @@
+// The command from outside: what it prints, what it leaves, how it ends.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "cli/json.h"
+#include "cli/support.h"
+
+using namespace cli_test;
+
+namespace {
+
+constexpr double k_pi = 3.14159265358979323846;
+
+struct Run {
+  int status;
+  std::string out;
+  std::string err;
+};
+
+// Runs it with the folder as the current one; `before` is shell code that goes in front.
+Run run(const ScratchFolder& folder, const std::string& arguments, const std::string& before = "") {
+  const std::string out = folder / "stdout.log";
+  const std::string err = folder / "stderr.log";
+  const std::string command = "cd '" + folder.path() + "' && (" + before + "'" + WIRESKIN_COMMAND +
+                              "' " + arguments + ") >stdout.log 2>stderr.log";
+  const int code = std::system(command.c_str());
+  Run result = {code, read_file(out), read_file(err)};
+#ifdef __unix__
+  result.status = code >= 256 ? code / 256 : code;
+#endif
+  fs::remove(out);
+  fs::remove(err);
+  return result;
+}
+
+// Three great circles of the unit sphere, in the format .net: six nodes first.
+std::string sphere_net(int quarter) {
+  std::vector<std::string> rows;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int sign = 1; sign >= -1; sign -= 2) {
+      std::string p;
+      for (int k = 0; k < 3; ++k) p += std::to_string(k == axis ? sign : 0) + " ";
+      rows.push_back(p + p);
+    }
+  }
+  std::string curves;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int next = (axis + 1) % 3;
+    std::string indices;
+    for (int i = 0; i < 4 * quarter; ++i) {
+      if (i % quarter == 0) {
+        const int turn = i / quarter;
+        indices += std::to_string(2 * (turn % 2 == 0 ? axis : next) + turn / 2) + " ";
+        continue;
+      }
+      double p[3] = {0, 0, 0};
+      p[axis] = std::cos(k_pi / 2 * i / quarter);
+      p[next] = std::sin(k_pi / 2 * i / quarter);
+      char row[200];
+      std::snprintf(row, sizeof row, "%.17g %.17g %.17g ", p[0], p[1], p[2]);
+      indices += std::to_string(rows.size()) + " ";
+      rows.push_back(std::string(row) + row);
+    }
+    curves += "0\n" + indices + indices.substr(0, indices.find(' ')) + "\n";
+  }
+  std::string text = std::to_string(rows.size()) + "\n";
+  for (const std::string& row : rows) text += row + "\n";
+  return text + "3\n" + curves;
+}
+
+// The same network after one line, counted from 1, is replaced.
+std::string with_line(const std::string& text, int line, const std::string& content) {
+  size_t at = 0;
+  for (int i = 1; i < line; ++i) at = text.find('\n', at) + 1;
+  return text.substr(0, at) + content + text.substr(text.find('\n', at));
+}
+
+bool one_line(const std::string& text) {
+  return !text.empty() && text.find('\n') == text.size() - 1;
+}
+
+size_t count_of(const std::string& text, const std::string& what) {
+  size_t count = 0;
+  for (size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a network in, surface, picture and report out") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(16));
+  const Run r = run(folder, "sphere.net -o s.obj --image s.png --report s.json --spacing 0.1");
+  REQUIRE(r.err == "");
+  REQUIRE(r.status == 0);
+  CHECK(one_line(r.out));
+  CHECK(folder.file_count() == 4);
+  auto report = JsonReader(read_file(folder / "s.json")).values;
+  CHECK(report["status"] == "ok");
+  CHECK(report["stage"] == "result");
+  CHECK(report["curves"] == "3");
+  CHECK(report["nodes"] == "6");
+  CHECK(report["segments"] == "12");
+  CHECK(report["patches"] == "8");
+  CHECK(report["components"] == "1");
+  CHECK(report["boundary_loops"] == "0");
+  CHECK(report["euler_characteristic"] == "2");
+  CHECK(std::stod(report["spacing"]) == doctest::Approx(0.1));
+  CHECK(std::stod(report["total_ms"]) > 0.0);
+  CHECK(std::stod(report["peak_bytes"]) > 0.0);
+  const std::string obj = read_file(folder / "s.obj");
+  CHECK(std::to_string(count_of(obj, "\nv ")) == report["vertices"]);
+  CHECK(std::to_string(count_of(obj, "\nvn ")) == report["vertices"]);
+  CHECK(std::to_string(count_of(obj, "\nf ")) == report["triangles"]);
+  CHECK(count_of(obj, "\ng patch_") == 8);
+  CHECK(read_file(folder / "s.png").substr(1, 3) == "PNG");
+}
+
+TEST_CASE("every method, every output format, --quiet") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(8));
+  for (const char* method : {"stanko", "biharmonic", "triharmonic", "clamped"}) {
+    CAPTURE(method);
+    const Run r = run(folder, std::string("sphere.net -o s.ply --spacing 0.2 --quiet --report "
+                                          "s.json --method ") +
+                                  method);
+    CHECK(r.status == 0);
+    CHECK(r.out == "");
+    CHECK(r.err == "");
+    CHECK(JsonReader(read_file(folder / "s.json")).values["method"] == method);
+  }
+  CHECK(read_file(folder / "s.ply").substr(0, 4) == "ply\n");
+  CHECK(run(folder, "sphere.net -o s.stl --spacing 0.2").status == 0);
+  CHECK(read_file(folder / "s.stl").size() > 84);
+}
+
+TEST_CASE("the same command twice gives the same bytes") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(8));
+  REQUIRE(run(folder, "sphere.net -o a.ply --image a.png").status == 0);
+  REQUIRE(run(folder, "sphere.net -o b.ply --image b.png", "LC_ALL=de_DE.UTF-8 ").status == 0);
+  CHECK(read_file(folder / "a.ply") == read_file(folder / "b.ply"));
+  CHECK(read_file(folder / "a.png") == read_file(folder / "b.png"));
+}
+
+TEST_CASE("help and version") {
+  const ScratchFolder folder("command");
+  const Run help = run(folder, "--help");
+  CHECK(help.status == 0);
+  CHECK(help.out.find("usage: wireskin") != std::string::npos);
+  CHECK(run(folder, "--version").out == std::string("wireskin ") + wsk_version_string() + "\n");
+}
+
+TEST_CASE("wrong usage ends with 2 and one line") {
+  const ScratchFolder folder("command");
+  for (const char* words :
+       {"", "a.net", "a.net -o b.xyz", "--frob", "a.net -o a.obj --spacing x"}) {
+    const Run r = run(folder, words);
+    CAPTURE(words);
+    CHECK(r.status == 2);
+    CHECK(r.out == "");
+    CHECK(one_line(r.err));
+    CHECK(r.err.find("--help") != std::string::npos);
+  }
+}
+
+TEST_CASE("faults of reading end with 1, one line, and no file") {
+  const ScratchFolder folder("command");
+  const std::string net = sphere_net(4);
+  const struct {
+    const char* name;
+    std::string content;
+    const char* message;
+  } cases[] = {
+      {"empty.net", "", "empty.net: the file is empty\n"},
+      {"binary.net", std::string("4\n\0\1\2\3", 6),
+       "binary.net: this is a binary file, not text\n"},
+      {"cut.net", net.substr(0, net.find('\n', 30) + 1),
+       "cut.net:3: the file ends after 2 of 42 vertices\n"},
+      {"word.net", with_line(net, 5, "0 0 x 0 0 1"), "word.net:5: \"x\" is not a number\n"},
+      {"few.net", with_line(net, 5, "0 0 1"),
+       "few.net:5: 3 columns where 6 are needed: x y z nx ny nz\n"},
+      {"range.net", with_line(net, 46, "0 42"),
+       "range.net:46: vertex index 42 is out of range, the file has 42 vertices\n"},
+      {"mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+       "mesh.obj: a mesh (f) without curves: the curves must be given as l\n"},
+      {"other.svg", "<svg/>", "other.svg: unknown format \".svg\", known are .net and .obj\n"},
+  };
+  for (const auto& c : cases) {
+    CAPTURE(c.name);
+    write_file(folder / c.name, c.content);
+    const Run r =
+        run(folder, std::string(c.name) + " -o out.obj --image out.png --report out.json");
+    CHECK(r.status == 1);
+    CHECK(r.out == "");
+    CHECK(r.err == c.message);
+    fs::remove(folder / c.name);
+    CHECK(folder.file_count() == 0);
+  }
+  CHECK(run(folder, "none.net -o out.obj").err == "none.net: there is no such file\n");
+}
+
+TEST_CASE("faults of the network: the place in one line and in the report, no surface") {
+  const ScratchFolder folder("command");
+  const std::string net = sphere_net(4);
+  // Curve 0 begins 0 6 7 8 2, so vertex 7 is its sample 2; it stands in line 9.
+  const struct {
+    const char* name;
+    std::string content;
+    const char* status;
+    const char* message;
+  } cases[] = {
+      {"no_normal.net", with_line(net, 9, "0.7071 0.7071 0 0 0 0"), "zero_normal",
+       "curve 0, sample 2: "},
+      {"nan.net", with_line(net, 9, "nan 0 0 1 0 0"), "not_a_number", "curve 0, sample 2: "},
+      {"inf.net", with_line(net, 9, "0 inf 0 1 0 0"), "infinite", "curve 0, sample 2: "},
+      {"no_curves.net", "1\n0 0 0 0 0 1\n0\n", "empty", ""},
+      {"open.net", "3\n0 0 0 0 0 1\n1 0 0 0 0 1\n2 1 0 0 0 1\n1\n0\n0 1 2\n", "open_network", ""},
+      {"no_normals.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3 1\n", "missing_normals", ""},
+      {"point.net", "2\n0 0 0 0 0 1\n0 0 0 0 0 1\n1\n0\n0 1\n", "zero_length_curve", "curve 0"},
+  };
+  for (const auto& c : cases) {
+    CAPTURE(c.name);
+    write_file(folder / c.name, c.content);
+    const Run r =
+        run(folder, std::string(c.name) + " -o out.obj --image out.png --report out.json");
+    CAPTURE(r.err);
+    CHECK(r.status == 1);
+    CHECK(r.out == "");
+    CHECK(one_line(r.err));
+    CHECK(r.err.find(std::string(c.name) + ": " + c.message) == 0);
+    REQUIRE(fs::exists(folder / "out.json"));
+    auto report = JsonReader(read_file(folder / "out.json")).values;
+    CHECK(report["status"] == c.status);
+    CHECK(report["sentence"].size() > 5);
+    if (std::string(c.message) == "curve 0, sample 2: ") {
+      CHECK(r.err.find("(line 9)") != std::string::npos);
+      CHECK(report["place.curve"] == "0");
+      CHECK(report["place.sample"] == "2");
+    }
+    fs::remove(folder / c.name);
+    fs::remove(folder / "out.json");
+    CHECK(folder.file_count() == 0);
+  }
+}
+
+TEST_CASE("a report that cannot be written does not hide the fault of the network") {
+  const ScratchFolder folder("command");
+  write_file(folder / "nan.net", with_line(sphere_net(4), 9, "nan 0 0 1 0 0"));
+  const Run r = run(folder, "nan.net -o out.obj --report missing/out.json");
+  CHECK(r.status == 1);
+  CHECK(one_line(r.err));
+  CHECK(r.err.find("nan.net: curve 0, sample 2: ") == 0);
+  CHECK(r.err.find("; missing/out.json: cannot be written: ") != std::string::npos);
+}
+
+TEST_CASE("outputs are complete or absent, all of them") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(8));
+  for (const char* outputs :
+       {"-o missing/s.obj --image s.png --report s.json", "-o s.obj --image missing/s.png",
+        "-o s.obj --image s.png --report missing/s.json"}) {
+    CAPTURE(outputs);
+    const Run r = run(folder, std::string("sphere.net ") + outputs);
+    CHECK(r.status == 1);
+    CHECK(one_line(r.err));
+    CHECK(r.err.find("missing/s.") == 0);
+    CHECK(r.err.find(": cannot be written: ") != std::string::npos);
+    CHECK(folder.file_count() == 1);
+  }
+}
+
+#ifdef __unix__
+TEST_CASE("a full disk leaves neither file nor remains, nor harms what was there") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(8));
+  write_file(folder / "s.obj", "old");
+  // Files may not grow beyond a few blocks; the mesh needs more.
+  const Run r = run(folder, "sphere.net -o s.obj --report s.json", "ulimit -f 8; ");
+  CHECK(r.status == 1);
+  CHECK(one_line(r.err));
+  CHECK(r.err.find("s.obj: cannot be written: ") == 0);
+  CHECK(read_file(folder / "s.obj") == "old");
+  CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("a signal cancels, and nothing is left") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(64));
+  // So fine a spacing would take minutes.
+  const Run r =
+      run(folder, "sphere.net -o s.obj --spacing 0.002 & sleep 1; kill -TERM $!; wait $!");
+  CHECK(r.status == 1);
+  CHECK(r.err.find("sphere.net: cancelled\n") != std::string::npos);
+  CHECK(folder.file_count() == 1);
+}
+#endif
+
+TEST_CASE("the example in C writes the sphere") {
+  const ScratchFolder folder("command");
+  const std::string target = folder / "sphere.obj";
+  REQUIRE(std::system(("'" + std::string(WIRESKIN_THREE_CIRCLES) + "' '" + target + "'").c_str()) ==
+          0);
+  std::ifstream file(target);
+  std::string word;
+  size_t vertices = 0, triangles = 0;
+  double farthest = 0.0;
+  while (file >> word) {
+    if (word == "v") {
+      double x = 0, y = 0, z = 0;
+      file >> x >> y >> z;
+      farthest = std::max(farthest, std::fabs(std::sqrt(x * x + y * y + z * z) - 1.0));
+      ++vertices;
+    } else if (word == "f") {
+      ++triangles;
+    }
+  }
+  CHECK(vertices > 500);
+  // Euler: a closed surface of genus 0.
+  CHECK(triangles == 2 * vertices - 4);
+  CHECK(farthest < 0.05);
+}
