@@ -3,9 +3,10 @@
 // are right-hand sides. Supernodal and left-looking: each panel collects the updates of the panels
 // to its left and is then factored as a dense matrix.
 //
-// Invariants: a failed call leaves no factor behind, and solve() then says so. The same input gives
-// the same bits, for a first factor() and a repeated one, for one right-hand side and for many.
-// Memory: the panels, plus about 8 words per column; factor() allocates nothing.
+// Invariants: a failed analyse() or factor() leaves no factor behind, and solve() then says so. The
+// same input gives the same bits, for a first factor() and a repeated one, for one right-hand side
+// and for many. Memory: the panels, 2 words per entry of the matrix, about 8 per column; factor()
+// allocates none.
 //
 // Source: Esmond Ng, Barry Peyton, "Block Sparse Cholesky Algorithms on Advanced Uniprocessor
 // Computers", 1993.

@@ -4,7 +4,8 @@
 // In: the pattern of the lower triangle (values are not read). Out: order[k] = the column
 // eliminated k-th, a permutation of 0 .. n - 1. Only integers decide, ties by the last inserted, so
 // the order is the same everywhere. Columns with more than 10 sqrt(n) neighbours go to the end.
-// Cost: in practice close to linear in the entries; memory about entries + 18 n words.
+// Cost: in practice close to linear in the entries; memory 2.4 words per entry
+// stored and 18 per column.
 //
 // Source: Patrick Amestoy, Timothy Davis, Iain Duff, "An Approximate Minimum Degree Ordering
 // Algorithm", 1996.
