@@ -403,7 +403,7 @@ static Status smooth_mesh(Context& context, const wsk_mesh& mesh, const wsk_opti
   int exponent = 0;
   TRY(context.enter(Stage::input));
   const bool needs_normals =
-      options.method == WSK_METHOD_STANKO || options.method == WSK_METHOD_CLAMPED;
+      options.method != WSK_METHOD_BIHARMONIC && options.method != WSK_METHOD_TRIHARMONIC;
   TRY(read_mesh(mesh, needs_normals, &storage));
   TRY(find_scale(storage.position.span(), &exponent));
   const Scale scale(-exponent);

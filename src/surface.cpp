@@ -1,6 +1,7 @@
 #include "surface.h"
 
 #include "mesh/curvature.h"
+#include "smooth/fair.h"
 #include "network/patch_mesh.h"
 
 namespace wireskin {
@@ -117,6 +118,19 @@ static Status smooth_patches(Context& context, const network::PatchMesh& patches
   for (uint32_t v = 0; v < n; ++v) held[v] = v < patches.curve_vertices;
   const smooth::Domain domain = {patches.triangle.span(), patches.shape.span(), held.span(),
                                  topology.on_border.span(), smooth::Metric::planes};
+  if (method == smooth::Method::iterated || method == smooth::Method::fair) {
+    smooth::FairReport report;
+    smooth::FairOptions options;
+    if (method == smooth::Method::iterated) options.displacement_steps = 0;
+    const smooth::FairMesh mesh = {surface->position.span(),  normal.span(),
+                                   surface->triangle.span(),  surface->patch.span(),
+                                   held.span(), topology.on_border.span(), patches.shape.span()};
+    TRY(smooth::fair(context, mesh, surface->counts.patches, options, &report));
+    surface->counts.residual = report.residual;
+    surface->counts.guarded = report.guarded_patches;
+    surface->counts.greatest_step = report.greatest_step;
+    return measure(context, topology.on_border.span(), surface);
+  }
   TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},
                      &surface->counts.residual));
   return measure(context, topology.on_border.span(), surface);
@@ -230,6 +244,17 @@ Status surface_triangles(Context& context, const TriangleSet& set, smooth::Metho
 
   const smooth::Domain domain = {set.triangle, shapes.span(), set.held, topology.on_border.span(),
                                  smooth::Metric::space};
+  if (method == smooth::Method::iterated || method == smooth::Method::fair) {
+    smooth::FairReport report;
+    smooth::FairOptions options;
+    if (method == smooth::Method::iterated) options.displacement_steps = 0;
+    const smooth::FairMesh mesh = {surface->position.span(),  normal.span(),
+                                   surface->triangle.span(),  surface->patch.span(),
+                                   set.held, topology.on_border.span(), {}};
+    TRY(smooth::fair(context, mesh, 1, options, &report));
+    counts->residual = report.residual;
+    return measure(context, topology.on_border.span(), surface);
+  }
   TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},
                      &counts->residual));
   return measure(context, topology.on_border.span(), surface);

@@ -38,6 +38,8 @@ struct Counts {
   double spacing = 0.0;
   double least_angle = 0.0;  // degrees
   double residual = 0.0;
+  uint32_t guarded = 0;
+  double greatest_step = 0.0;
 };
 
 struct Surface {

@@ -163,7 +163,9 @@ enum {
   /* Biharmonic with the curvature vector prescribed on the curves: method (4) of Stanko et al., for
      comparison. Erratic by nature. */
   WSK_METHOD_CLAMPED = 3,
-  WSK_METHOD_COUNT = 4
+  WSK_METHOD_ITERATED = 4,
+  WSK_METHOD_FAIR = 5,
+  WSK_METHOD_COUNT = 6
 };
 
 /* `user` is the pointer given beside the callback. None of the callbacks may throw or jump out of

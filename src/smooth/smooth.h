@@ -19,7 +19,14 @@
 
 namespace wireskin::smooth {
 
-enum class Method { stanko = 0, biharmonic = 1, triharmonic = 2, clamped = 3 };
+enum class Method {
+  stanko = 0,
+  biharmonic = 1,
+  triharmonic = 2,
+  clamped = 3,
+  iterated = 4,
+  fair = 5
+};
 
 enum class Metric { planes, space };
 

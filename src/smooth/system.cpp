@@ -14,6 +14,31 @@ static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3
   }
 }
 
+// The lower half of -L among the unknowns.
+static Status negative_part(const sparse::Csc& a, Span<const uint32_t> unknown, uint32_t unknowns,
+                            sparse::Csc* part) {
+  part->rows = part->cols = unknowns;
+  TRY(part->start.resize(size_t{unknowns} + 1));
+  TRY(part->row.reserve(a.row.size()));
+  TRY(part->value.reserve(a.row.size()));
+  part->row.clear();
+  part->value.clear();
+  uint32_t j = 0;
+  for (uint32_t column = 0; column < a.cols; ++column) {
+    if (unknown[column] == k_none) continue;
+    part->start[j] = static_cast<uint32_t>(part->row.size());
+    for (uint32_t p = a.start[column]; p < a.start[column + 1]; ++p) {
+      const uint32_t i = unknown[a.row[p]];
+      if (i == k_none || i < j) continue;
+      part->row.push_reserved(i);
+      part->value.push_reserved(-a.value[p]);
+    }
+    ++j;
+  }
+  part->start[j] = static_cast<uint32_t>(part->row.size());
+  return {};
+}
+
 Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order) {
   laplacian_ = &laplacian;
   order_ = order;
@@ -31,7 +56,9 @@ Status System::factor(Span<const double> weight) {
   TRY(context.enter(Stage::operators));
   TRY(weight_.copy(weight));
   if (unknowns_ == 0) return {};
-  if (order_ == Order::two) {
+  if (order_ == Order::one) {
+    TRY(negative_part(*laplacian_, unknown_.span(), unknowns_, &matrix_));
+  } else if (order_ == Order::two) {
     TRY(sparse::weighted_product(*laplacian_, weight, *laplacian_, unknown_.span(), unknowns_,
                                  sparse::Part::lower, &matrix_));
   } else {
@@ -59,6 +86,14 @@ Status System::factor(Span<const double> weight) {
   return factor_.factor(matrix_);
 }
 
+void System::store_right_hand_side(Span<const Vec3> values) {
+  for (size_t v = 0; v < values.size(); ++v) {
+    if (unknown_[v] == k_none) continue;
+    double* row = &rhs_[size_t{3} * unknown_[v]];
+    row[0] = values[v].x, row[1] = values[v].y, row[2] = values[v].z;
+  }
+}
+
 // L W (T - L v) at the free vertices, v with the free values at zero; for order 3, L W L W L v.
 Status System::right_hand_side(Span<const Vec3> target, Span<const Vec3> value) {
   Context& context = weight_.context();
@@ -67,6 +102,10 @@ Status System::right_hand_side(Span<const Vec3> target, Span<const Vec3> value) 
   TRY(b.resize(value.size()));
   for (size_t v = 0; v < value.size(); ++v) a[v] = unknown_[v] == k_none ? value[v] : Vec3{};
   multiply_vectors(*laplacian_, a.span(), b.span());
+  if (order_ == Order::one) {
+    store_right_hand_side(b.span());
+    return {};
+  }
   for (size_t v = 0; v < value.size(); ++v) {
     const Vec3 missing = target.empty() ? -b[v] : target[v] - b[v];
     b[v] = weight_[v] * missing;
@@ -76,11 +115,7 @@ Status System::right_hand_side(Span<const Vec3> target, Span<const Vec3> value) 
     for (size_t v = 0; v < value.size(); ++v) b[v] = -weight_[v] * a[v];
     multiply_vectors(*laplacian_, b.span(), a.span());
   }
-  for (size_t v = 0; v < value.size(); ++v) {
-    if (unknown_[v] == k_none) continue;
-    double* row = &rhs_[size_t{3} * unknown_[v]];
-    row[0] = a[v].x, row[1] = a[v].y, row[2] = a[v].z;
-  }
+  store_right_hand_side(a.span());
   return {};
 }
 

@@ -1,13 +1,14 @@
 // The linear systems of variational smoothing: vertex values that minimise the weighted square of
 // their Laplacian, with some vertices held.
 //
-// Order 2 minimises sum_r w_r |(L v)_r - T_r|^2 over the free values, with the matrix K = L W L;
-// order 3 minimises the Dirichlet energy of W L v, with L W (-L) W L (targets zero). L is the
-// integrated cotangent Laplacian, w the inverse vertex areas; a weight of zero leaves a row out. K
-// is positive definite when every component holds a vertex and the free rows stay in. One factor
-// serves any number of right-hand sides; new weights keep the ordering and the symbolic analysis.
-// Cost: see sparse/cholesky.h. Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time
-// Freeform Modeling", 2004.
+// Order 1 minimises the Dirichlet energy, with the matrix -L (no weights, no targets); order 2
+// minimises sum_r w_r |(L v)_r - T_r|^2 over the free values, with the matrix K = L W L; order 3
+// minimises the Dirichlet energy of W L v, with L W (-L) W L (targets zero). L is the integrated
+// cotangent Laplacian, w the inverse vertex areas; a weight of zero leaves a row out. K is positive
+// definite when every component holds a vertex and the free rows stay in. One factor serves any
+// number of right-hand sides; new weights keep the ordering and the symbolic analysis. Cost: see
+// sparse/cholesky.h. Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform
+// Modeling", 2004.
 #pragma once
 
 #include "num/vec.h"
@@ -16,7 +17,7 @@
 
 namespace wireskin::smooth {
 
-enum class Order { two = 2, three = 3 };
+enum class Order { one = 1, two = 2, three = 3 };
 
 class System {
  public:
@@ -40,6 +41,7 @@ class System {
 
  private:
   Status right_hand_side(Span<const Vec3> target, Span<const Vec3> value);
+  void store_right_hand_side(Span<const Vec3> values);
   double residual_of(Span<double> residual) const;
 
   const sparse::Csc* laplacian_ = nullptr;

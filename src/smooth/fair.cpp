@@ -1,0 +1,159 @@
+#include "smooth/fair.h"
+
+#include "mesh/care.h"
+#include "smooth/displace.h"
+#include "smooth/system.h"
+
+namespace wireskin::smooth {
+
+// A patch is given up when a vertex moves by more than this share of its size, or by more than the
+// second share and half as much again as in the step before.
+static constexpr double k_greatest_step = 0.25;
+static constexpr double k_growing_step = 0.1;
+static constexpr double k_growth = 1.5;
+
+namespace {
+
+// What the guard remembers.
+struct Guard {
+  Array<Vec3> position;  // after the last paper step
+  Array<uint32_t> triangle;
+  Array<double> area;     // of each patch
+  Array<double> step;     // of each patch, last time; -1 before the first
+  Array<uint8_t> frozen;  // patch
+  Array<uint8_t> held;    // vertex: held, or free in a frozen patch
+
+  explicit Guard(Context& context)
+      : position(context),
+        triangle(context),
+        area(context),
+        step(context),
+        frozen(context),
+        held(context) {}
+};
+
+}  // namespace
+
+static Status harmonic_start(Context& context, const FairMesh& mesh, double* residual) {
+  TRY(context.enter(Stage::operators));
+  const uint32_t n = static_cast<uint32_t>(mesh.position.size());
+  sparse::Csc laplacian(context);
+  System system(context);
+  Array<double> weight(context);
+  TRY(mesh::cotangent_laplacian(n, mesh.triangle, mesh.start_shape, &laplacian));
+  TRY(weight.assign(n, 1.0));
+  TRY(system.prepare(laplacian, mesh.held, Order::one));
+  TRY(system.factor(weight.span()));
+  return system.solve({}, mesh.position, residual);
+}
+
+static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::TriangleShape>* shapes,
+                         FairReport* report) {
+  uint32_t flips = 0;
+  TRY(context.enter(Stage::operators));
+  TRY(mesh::care(context, {mesh.position, mesh.triangle, mesh.patch, mesh.held}, &flips));
+  report->flips += flips;
+  TRY(mesh::triangle_shapes(mesh.position, mesh.triangle, shapes));
+  const Domain domain = {mesh.triangle, shapes->span(), mesh.held, mesh.on_border, Metric::space};
+  return smooth(context, domain, Method::stanko, {mesh.position, mesh.normal}, &report->residual);
+}
+
+static Status prepare_guard(const FairMesh& mesh, uint32_t patches, Guard* guard) {
+  TRY(guard->position.copy(mesh.position));
+  TRY(guard->triangle.copy(mesh.triangle));
+  TRY(guard->area.assign(patches, 0.0));
+  TRY(guard->step.assign(patches, -1.0));
+  TRY(guard->frozen.assign(patches, 0));
+  TRY(guard->held.copy(mesh.held));
+  for (size_t t = 0; t < mesh.patch.size(); ++t) {
+    const uint32_t* v = &mesh.triangle[3 * t];
+    const Vec3& a = mesh.position[v[0]];
+    guard->area[mesh.patch[t]] +=
+        0.5 * length(cross(mesh.position[v[1]] - a, mesh.position[v[2]] - a));
+  }
+  return {};
+}
+
+// Puts a patch back: flips stay within a patch, so its triangles still stand in the same places.
+static void freeze(const FairMesh& mesh, uint32_t patch, Guard* guard) {
+  guard->frozen[patch] = 1;
+  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+    if (mesh.patch[h / 3] != patch) continue;
+    const uint32_t v = guard->triangle[h];
+    mesh.triangle[h] = v;
+    if (mesh.held[v]) continue;
+    mesh.position[v] = guard->position[v];
+    guard->held[v] = 1;
+  }
+}
+
+// Compares the displacements of each patch with its size, before they are applied.
+static Status watch(Context& context, const FairMesh& mesh, Span<const double> step, Guard* guard,
+                    FairReport* report) {
+  Array<double> greatest(context);
+  TRY(greatest.assign(guard->area.size(), 0.0));
+  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+    const double u = std::fabs(step[mesh.triangle[h]]);
+    double& most = greatest[mesh.patch[h / 3]];
+    if (!(u <= most)) most = u;
+  }
+  for (uint32_t p = 0; p < greatest.size(); ++p) {
+    if (guard->frozen[p]) continue;
+    const double share = greatest[p] / std::sqrt(guard->area[p]);
+    const bool first = guard->step[p] < 0.0;
+    const bool grows = !first && share > k_growth * guard->step[p] && share > k_growing_step;
+    if (first && share > report->greatest_step) report->greatest_step = share;
+    guard->step[p] = share;
+    if (share <= k_greatest_step && !grows) continue;
+    freeze(mesh, p, guard);
+    ++report->guarded_patches;
+  }
+  return {};
+}
+
+static double mean_patch_size(const Guard& guard) {
+  double sum = 0.0;
+  for (double area : guard.area) sum += area;
+  return std::sqrt(sum / static_cast<double>(guard.area.size()));
+}
+
+static Status displacement_step(Context& context, const FairMesh& mesh, double smoothing_length,
+                                Span<const Vec3> held_normal, Guard* guard, FairReport* report) {
+  const size_t n = mesh.position.size();
+  Array<Vec3> direction(context);
+  Array<double> step(context);
+  uint32_t flips = 0;
+  TRY(context.enter(Stage::operators));
+  TRY(mesh::care(context, {mesh.position, mesh.triangle, mesh.patch, guard->held.span()}, &flips));
+  report->flips += flips;
+  TRY(direction.resize(n));
+  TRY(step.resize(n));
+  const DisplaceInput input = {mesh.position, held_normal,    mesh.triangle,   mesh.patch,
+                               mesh.held,     mesh.on_border, smoothing_length};
+  TRY(displacements(context, input, direction.span(), step.span(), &report->residual));
+  TRY(watch(context, mesh, step.span(), guard, report));
+  for (size_t v = 0; v < n; ++v) {
+    if (!guard->held[v]) mesh.position[v] += step[v] * direction[v];
+  }
+  return {};
+}
+
+Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const FairOptions& options,
+            FairReport* report) {
+  Array<mesh::TriangleShape> shapes(context);
+  Array<Vec3> held_normal(context);
+  Guard guard(context);
+  TRY(held_normal.copy(mesh.normal));
+  if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
+  for (int k = 0; k < options.paper_steps; ++k) {
+    TRY(paper_step(context, mesh, &shapes, report));
+  }
+  TRY(prepare_guard(mesh, patches, &guard));
+  const double smoothing_length = options.smoothness * mean_patch_size(guard);
+  for (int k = 0; k < options.displacement_steps; ++k) {
+    TRY(displacement_step(context, mesh, smoothing_length, held_normal.span(), &guard, report));
+  }
+  return {};
+}
+
+}  // namespace wireskin::smooth

@@ -1,0 +1,45 @@
+// The fair surface: positions of the free vertices from a harmonic start, two steps of the paper's
+// method on the current mesh in space, and three steps of minimum variation, with mesh care
+// between.
+//
+// In: a mesh with held vertices (positions, unit normals), the patch of each triangle, and the
+// shapes of the triangles in which the harmonic start is computed. Out: positions, propagated
+// normals, triangles (edges inside patches may be flipped). A patch whose displacement runs away
+// (more than a quarter of its size, or growing) is put back to what the paper's steps gave and
+// stays there. Cost: one factorisation of size n for the start, one for each of two paper steps,
+// one of size 2 n for each of three displacements. Sources: T. Stanko et al., "Surfacing Curve
+// Networks with Normal Control", 2016; H. Moreton, C. Sequin, "Functional Optimization for Fair
+// Surface Design", 1992.
+#pragma once
+
+#include "smooth/smooth.h"
+
+namespace wireskin::smooth {
+
+struct FairMesh {
+  Span<Vec3> position;
+  Span<Vec3> normal;  // in: of held vertices
+  Span<uint32_t> triangle;
+  Span<const uint32_t> patch;
+  Span<const uint8_t> held;
+  Span<const uint8_t> on_border;
+  Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
+};
+
+struct FairOptions {
+  int paper_steps = 2;
+  int displacement_steps = 3;
+  double smoothness = 0.12;  // c: the smoothing length in units of sqrt(area of the mesh / patches)
+};
+
+struct FairReport {
+  double residual = 0.0;
+  uint32_t flips = 0;
+  uint32_t guarded_patches = 0;
+  double greatest_step = 0.0;  // of any patch, over the square root of its area, in the first step
+};
+
+Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const FairOptions& options,
+            FairReport* report);
+
+}  // namespace wireskin::smooth
