@@ -13,6 +13,7 @@ struct wsk_surface {
   wsk_surface_view view;
 };
 
+namespace wireskin { extern uint32_t g_debug[2]; }
 namespace wireskin::api {
 
 static_assert(k_none == WSK_NONE && k_stage_count == WSK_STAGE_COUNT);
@@ -91,7 +92,7 @@ static void report_counts(const Counts& counts, const Scale& unscale, wsk_report
   report->euler_characteristic = counts.euler_characteristic;
   report->spacing = unscale(counts.spacing);
   report->min_angle_deg = counts.least_angle;
-  report->residual = counts.residual;
+  report->residual = counts.residual; g_debug[0]=counts.factorisations; g_debug[1]=counts.iterations;
 }
 
 static void report_costs(Context& context, wsk_report* report) {
@@ -552,3 +553,4 @@ void wsk_surface_free(wsk_surface* surface) {
 }
 
 }  // extern "C"
+namespace wireskin { uint32_t g_debug[2]; }

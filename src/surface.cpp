@@ -126,6 +126,7 @@ static Status smooth_patches(Context& context, const network::PatchMesh& patches
                                    surface->triangle.span(),  surface->patch.span(),
                                    held.span(), topology.on_border.span(), patches.shape.span()};
     TRY(smooth::fair(context, mesh, surface->counts.patches, options, &report));
+    surface->counts.factorisations=report.factorisations; surface->counts.iterations=report.iterations;
     surface->counts.residual = report.residual;
     surface->counts.guarded = report.guarded_patches;
     surface->counts.greatest_step = report.greatest_step;
@@ -252,7 +253,7 @@ Status surface_triangles(Context& context, const TriangleSet& set, smooth::Metho
                                    surface->triangle.span(),  surface->patch.span(),
                                    set.held, topology.on_border.span(), {}};
     TRY(smooth::fair(context, mesh, 1, options, &report));
-    counts->residual = report.residual;
+    counts->residual = report.residual; counts->factorisations=report.factorisations; counts->iterations=report.iterations;
     return measure(context, topology.on_border.span(), surface);
   }
   TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},

@@ -40,6 +40,7 @@ struct Counts {
   double residual = 0.0;
   uint32_t guarded = 0;
   double greatest_step = 0.0;
+  uint32_t factorisations=0, iterations=0;
 };
 
 struct Surface {

@@ -1,7 +1,7 @@
 #include "smooth/displace.h"
 
 #include "mesh/curvature.h"
-#include "sparse/cholesky.h"
+#include "sparse/conjugate_gradients.h"
 #include "sparse/ordering.h"
 #include "sparse/product.h"
 
@@ -30,14 +30,14 @@ struct SplitMesh {
         laplacian(context) {}
 };
 
-// Columns of the least squares problem: the displacement (if free) and the curvature of each vertex
-// stand together.
-struct Unknowns {
-  uint32_t count = 0;
-  Array<uint32_t> displacement;  // k_none where held
-  Array<uint32_t> curvature;
+// The least squares problem min sum_r weight_r (target_r - (rows x)_r)^2, as an operator.
+struct NormalEquations {
+  const sparse::Csc& rows;
+  Span<const double> weight;
+  Array<double> image;  // of each row
 
-  explicit Unknowns(Context& context) : displacement(context), curvature(context) {}
+  NormalEquations(Context& context, const sparse::Csc& r, Span<const double> w)
+      : rows(r), weight(w), image(context) {}
 };
 
 }  // namespace
@@ -101,51 +101,46 @@ static Status make_split_mesh(const DisplaceInput& input, Span<const Vec3> norma
                                    &split->laplacian);
 }
 
-static Status number_unknowns(Span<const uint8_t> held, Unknowns* unknowns) {
-  TRY(unknowns->displacement.resize(held.size()));
-  TRY(unknowns->curvature.resize(held.size()));
+Status MinimumVariation::number_unknowns(Span<const uint8_t> held) {
+  TRY(displacement_.resize(held.size()));
+  TRY(curvature_.resize(held.size()));
+  unknowns_ = 0;
   for (size_t v = 0; v < held.size(); ++v) {
-    unknowns->displacement[v] = held[v] ? k_none : unknowns->count++;
-    unknowns->curvature[v] = unknowns->count++;
+    displacement_[v] = held[v] ? k_none : unknowns_++;
+    curvature_[v] = unknowns_++;
   }
   return {};
 }
 
 // The matrix of the least squares problem: first the rows of the split mesh, then one row a vertex
-// for the Laplacian of h.
-static Status make_rows(const SplitMesh& split, const sparse::Csc& laplacian,
-                        const Unknowns& unknowns, sparse::Csc* rows) {
-  Context& context = rows->start.context();
-  const uint32_t n = laplacian.cols;
-  Array<uint32_t> copies(context), first_copy(context);
-  TRY(first_copy.assign(size_t{n} + 1, 0));
-  for (uint32_t v : split.origin) ++first_copy[v];
-  starts_from_counts(first_copy.span());
-  rows->rows = split.vertices + n;
-  rows->cols = unknowns.count;
-  const size_t most = split.laplacian.row.size() + laplacian.row.size() + split.vertices;
+// for the Laplacian of h. Columns are the unknowns, u and h of a vertex next to each other.
+Status MinimumVariation::make_rows(const sparse::Csc& split_laplacian,
+                                   Span<const double> split_area, Span<const uint32_t> origin,
+                                   const sparse::Csc& laplacian, sparse::Csc* rows) const {
+  const uint32_t n = laplacian.cols, split = split_laplacian.cols;
+  rows->rows = split + n;
+  rows->cols = unknowns_;
+  const size_t most = split_laplacian.row.size() + laplacian.row.size() + split;
   if (most >= k_none) return fail(Code::too_large, "the mesh is too large for 32-bit indices");
-  TRY(rows->start.resize(size_t{unknowns.count} + 1));
+  TRY(rows->start.resize(size_t{unknowns_} + 1));
   TRY(rows->row.reserve(most));
   TRY(rows->value.reserve(most));
-  uint32_t column = 0;
   const auto add = [&](uint32_t row, double value) {
     rows->row.push_reserved(row);
     rows->value.push_reserved(value);
   };
-  // Split vertices are numbered along with their origins, so those of v stand together.
+  uint32_t column = 0, copy = 0;  // split vertices are numbered along with their origins
   for (uint32_t v = 0; v < n; ++v) {
-    const uint32_t r = first_copy[v];
-    if (unknowns.displacement[v] != k_none) {
+    if (displacement_[v] != k_none) {
       rows->start[column++] = static_cast<uint32_t>(rows->row.size());
-      for (uint32_t p = split.laplacian.start[r]; p < split.laplacian.start[r + 1]; ++p) {
-        add(split.laplacian.row[p], split.laplacian.value[p]);
+      for (uint32_t p = split_laplacian.start[copy]; p < split_laplacian.start[copy + 1]; ++p) {
+        add(split_laplacian.row[p], split_laplacian.value[p]);
       }
     }
     rows->start[column++] = static_cast<uint32_t>(rows->row.size());
-    for (uint32_t copy = r; copy < first_copy[v + 1]; ++copy) add(copy, 2.0 * split.area[copy]);
+    for (; copy < split && origin[copy] == v; ++copy) add(copy, 2.0 * split_area[copy]);
     for (uint32_t p = laplacian.start[v]; p < laplacian.start[v + 1]; ++p) {
-      add(split.vertices + laplacian.row[p], laplacian.value[p]);
+      add(split + laplacian.row[p], laplacian.value[p]);
     }
   }
   rows->start[column] = static_cast<uint32_t>(rows->row.size());
@@ -170,58 +165,76 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
   }
 }
 
-// Minimises sum_r weight_r (target_r - (rows x)_r)^2.
-static Status least_squares(Context& context, const sparse::Csc& rows, Span<const double> weight,
-                            Span<const double> target, Array<double>* solution, double* residual) {
-  sparse::Csc transposed(context), matrix(context);
-  sparse::Cholesky factor(context);
-  Array<uint32_t> all(context), order(context);
-  Array<double> rhs(context), left(context);
+// y = rows^T diag(weight) rows x.
+static Status apply_normal_equations(void* self, Span<const double> x, Span<double> y) {
+  NormalEquations& equations = *static_cast<NormalEquations*>(self);
+  const sparse::Csc& rows = equations.rows;
+  const Span<double> image = equations.image.span();
+  for (double& value : image) value = 0.0;
+  for (uint32_t j = 0; j < rows.cols; ++j) {
+    for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
+      image[rows.row[p]] += rows.value[p] * x[j];
+    }
+  }
+  for (size_t r = 0; r < image.size(); ++r) image[r] *= equations.weight[r];
+  for (uint32_t j = 0; j < rows.cols; ++j) {
+    double sum = 0.0;
+    for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
+      sum += rows.value[p] * image[rows.row[p]];
+    }
+    y[j] = sum;
+  }
+  return equations.image.context().checkpoint();
+}
+
+Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
+                                             Span<const double> rhs, Span<double> solution,
+                                             bool* solved) {
+  // A factorisation costs as much as some sixty solves.
+  const sparse::CgOptions options = {1e-9, 40};
+  sparse::CgResult result;
+  NormalEquations equations(context_, rows, weight);
+  TRY(equations.image.resize(rows.rows));
+  TRY(context_.enter(Stage::solve));
+  for (double& x : solution) x = 0.0;
+  const Status status = sparse::conjugate_gradients(context_, {apply_normal_equations, &equations},
+                                                    sparse::inverse_operator(factor_), rhs,
+                                                    solution, options, &result);
+  *solved = status.ok() && result.converged;
+  iterations_ += result.iterations;
+  residual_ = result.residual;
+  return status.code == Code::not_positive_definite ? Status{} : status;
+}
+
+Status MinimumVariation::solve_by_new_factor(const sparse::Csc& rows, Span<const double> weight,
+                                             Span<const double> rhs, Span<double> solution) {
+  sparse::Csc transposed(context_), matrix(context_);
+  Array<uint32_t> all(context_), order(context_);
   TRY(sparse::transpose(rows, &transposed));
   TRY(all.resize(rows.cols));
-  TRY(rhs.resize(rows.cols));
-  TRY(left.resize(rows.cols));
-  for (uint32_t j = 0; j < rows.cols; ++j) {
-    all[j] = j;
-    rhs[j] = 0.0;
-    for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
-      rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
-    }
-  }
+  for (uint32_t j = 0; j < rows.cols; ++j) all[j] = j;
   TRY(sparse::weighted_product(transposed, weight, rows, all.span(), rows.cols, sparse::Part::lower,
                                &matrix));
-  TRY(context.enter(Stage::factor));
+  transposed.row.free();
+  transposed.value.free();
+  TRY(context_.enter(Stage::factor));
   TRY(sparse::minimum_degree(matrix, &order));
-  TRY(factor.analyse(matrix, order.span()));
-  TRY(factor.factor(matrix));
-  TRY(context.enter(Stage::solve));
-  TRY(solution->copy(rhs.span()));
-  TRY(factor.solve(solution->span(), 1));
-  for (int refinement = 0; refinement < 2; ++refinement) {
-    sparse::multiply_symmetric(matrix, solution->span(), left.span(), 1);
-    double whole = 0.0, missing = 0.0;
-    for (uint32_t j = 0; j < rows.cols; ++j) {
-      left[j] = rhs[j] - left[j];
-      whole += rhs[j] * rhs[j];
-      missing += left[j] * left[j];
-    }
-    *residual = whole > 0.0 ? std::sqrt(missing / whole) : 0.0;
-    if (refinement == 1) break;
-    TRY(factor.solve(left.span(), 1));
-    for (uint32_t j = 0; j < rows.cols; ++j) (*solution)[j] += left[j];
-  }
+  TRY(factor_.analyse(matrix, order.span()));
+  TRY(factor_.factor(matrix));
+  ++factorisations_;
+  bool solved = false;
+  TRY(solve_by_old_factor(rows, weight, rhs, solution, &solved));
   return {};
 }
 
-Status displacements(Context& context, const DisplaceInput& input, Span<Vec3> normal,
-                     Span<double> step, double* residual) {
-  TRY(context.enter(Stage::operators));
+Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Span<double> step) {
+  TRY(context_.enter(Stage::operators));
   const uint32_t n = static_cast<uint32_t>(input.position.size());
-  Array<mesh::TriangleShape> shapes(context);
-  Array<double> area(context), weight(context), target(context), solution(context);
-  sparse::Csc laplacian(context), rows(context);
-  SplitMesh split(context);
-  Unknowns unknowns(context);
+  Array<mesh::TriangleShape> shapes(context_);
+  Array<double> area(context_), weight(context_), target(context_), rhs(context_),
+      solution(context_);
+  sparse::Csc laplacian(context_), rows(context_);
+  SplitMesh split(context_);
   mesh::vertex_normals(input.position, input.triangle, normal);
   for (uint32_t v = 0; v < n; ++v) {
     if (input.held[v]) normal[v] = input.held_normal[v];
@@ -231,14 +244,26 @@ Status displacements(Context& context, const DisplaceInput& input, Span<Vec3> no
   TRY(area.resize(n));
   mesh::mixed_voronoi_areas(input.triangle, shapes.span(), area.span());
   TRY(mesh::cotangent_laplacian(n, input.triangle, shapes.span(), &laplacian));
-  TRY(number_unknowns(input.held, &unknowns));
-  TRY(make_rows(split, laplacian, unknowns, &rows));
+  TRY(number_unknowns(input.held));
+  TRY(make_rows(split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
   TRY(weight.resize(rows.rows));
   TRY(target.resize(rows.rows));
   make_targets(input, split, area.span(), weight.span(), target.span());
-  TRY(least_squares(context, rows, weight.span(), target.span(), &solution, residual));
+  TRY(rhs.resize(unknowns_));
+  TRY(solution.resize(unknowns_));
+  for (uint32_t j = 0; j < unknowns_; ++j) {
+    rhs[j] = 0.0;
+    for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
+      rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
+    }
+  }
+  bool solved = false;
+  if (factorisations_ > 0) {
+    TRY(solve_by_old_factor(rows, weight.span(), rhs.span(), solution.span(), &solved));
+  }
+  if (!solved) TRY(solve_by_new_factor(rows, weight.span(), rhs.span(), solution.span()));
   for (uint32_t v = 0; v < n; ++v) {
-    step[v] = input.held[v] ? 0.0 : solution[unknowns.displacement[v]];
+    step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
   }
   return {};
 }

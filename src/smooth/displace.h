@@ -15,6 +15,7 @@
 #pragma once
 
 #include "mesh/operators.h"
+#include "sparse/cholesky.h"
 
 namespace wireskin::smooth {
 
@@ -23,13 +24,43 @@ struct DisplaceInput {
   Span<const Vec3> held_normal;  // unit at held vertices
   Span<const uint32_t> triangle;
   Span<const uint32_t> patch;  // of each triangle
-  Span<const uint8_t> held;
+  Span<const uint8_t> held;    // the same in every step
   Span<const uint8_t> on_border;
   double smoothing_length;  // c l above
 };
 
-// `normal`: out, the directions; `step`: out, u of every vertex, zero where held.
-Status displacements(Context& context, const DisplaceInput& input, Span<Vec3> normal,
-                     Span<double> step, double* residual);
+// Solves one step after the other. The systems of later steps differ little from the first, so its
+// factor preconditions conjugate gradients for them; only where these are slow is there a new one.
+class MinimumVariation {
+ public:
+  explicit MinimumVariation(Context& context)
+      : context_(context), factor_(context), displacement_(context), curvature_(context) {}
+
+  // `normal`: out, the directions; `step`: out, u of every vertex, zero where held.
+  Status solve(const DisplaceInput& input, Span<Vec3> normal, Span<double> step);
+
+  double residual() const { return residual_; }  // of the last solve, relative
+  uint32_t factorisations() const { return factorisations_; }
+  uint32_t iterations() const { return iterations_; }  // of conjugate gradients, all steps together
+
+ private:
+  Status number_unknowns(Span<const uint8_t> held);
+  Status make_rows(const sparse::Csc& split_laplacian, Span<const double> split_area,
+                   Span<const uint32_t> origin, const sparse::Csc& laplacian,
+                   sparse::Csc* rows) const;
+  Status solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
+                             Span<const double> rhs, Span<double> solution, bool* solved);
+  Status solve_by_new_factor(const sparse::Csc& rows, Span<const double> weight,
+                             Span<const double> rhs, Span<double> solution);
+
+  Context& context_;
+  sparse::Cholesky factor_;
+  Array<uint32_t> displacement_;  // number of each vertex's unknown u, k_none where held
+  Array<uint32_t> curvature_;     // and of its unknown h, next to it
+  uint32_t unknowns_ = 0;
+  uint32_t factorisations_ = 0;
+  uint32_t iterations_ = 0;
+  double residual_ = 0.0;
+};
 
 }  // namespace wireskin::smooth

@@ -118,7 +118,8 @@ static double mean_patch_size(const Guard& guard) {
 }
 
 static Status displacement_step(Context& context, const FairMesh& mesh, double smoothing_length,
-                                Span<const Vec3> held_normal, Guard* guard, FairReport* report) {
+                                Span<const Vec3> held_normal, MinimumVariation* solver,
+                                Guard* guard, FairReport* report) {
   const size_t n = mesh.position.size();
   Array<Vec3> direction(context);
   Array<double> step(context);
@@ -130,7 +131,7 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
   TRY(step.resize(n));
   const DisplaceInput input = {mesh.position, held_normal,    mesh.triangle,   mesh.patch,
                                mesh.held,     mesh.on_border, smoothing_length};
-  TRY(displacements(context, input, direction.span(), step.span(), &report->residual));
+  TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {
     if (!guard->held[v]) mesh.position[v] += step[v] * direction[v];
@@ -149,10 +150,15 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     TRY(paper_step(context, mesh, &shapes, report));
   }
   TRY(prepare_guard(mesh, patches, &guard));
+  MinimumVariation solver(context);
   const double smoothing_length = options.smoothness * mean_patch_size(guard);
   for (int k = 0; k < options.displacement_steps; ++k) {
-    TRY(displacement_step(context, mesh, smoothing_length, held_normal.span(), &guard, report));
+    TRY(displacement_step(context, mesh, smoothing_length, held_normal.span(), &solver, &guard,
+                          report));
   }
+  report->residual = solver.residual();
+  report->factorisations = solver.factorisations();
+  report->iterations = solver.iterations();
   return {};
 }
 

@@ -35,6 +35,8 @@ struct FairOptions {
 struct FairReport {
   double residual = 0.0;
   uint32_t flips = 0;
+  uint32_t factorisations = 0;  // of displacement steps
+  uint32_t iterations = 0;      // of conjugate gradients
   uint32_t guarded_patches = 0;
   double greatest_step = 0.0;  // of any patch, over the square root of its area, in the first step
 };
