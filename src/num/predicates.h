@@ -1,9 +1,9 @@
 // The two questions on which planar triangulation rests, answered exactly: on which side of a line
 // does a point lie, and is it inside a circle.
 //
-// A result's sign is always right; its magnitude is an approximation. Holds for coordinates that are
-// zero or between k_least_coordinate and k_greatest_coordinate in magnitude: then no product of four
-// differences over- or underflows, in the filter or in the exact stage.
+// A result's sign is always right; its magnitude is an approximation. Holds for coordinates that
+// are zero or between k_least_coordinate and k_greatest_coordinate in magnitude: then no product
+// of four differences over- or underflows, in the filter or in the exact stage.
 // Cost: a few nanoseconds where the rounding error cannot reach the sign, which the filter proves;
 // else (points on one line or circle to about 1e-16) the same determinant in expansion arithmetic.
 // Source: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
@@ -51,7 +51,10 @@ inline Filtered incircle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return {det, std::fabs(det) > k_bound * permanent};
 }
 
+// The stages behind the filters. incircle_wide computes in pairs of doubles, for the many
+// quadruples that lie on one circle but for the rounding of their coordinates.
 double orient2d_exact(Vec2 a, Vec2 b, Vec2 c);
+Filtered incircle_wide(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 double incircle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 
 // Positive where a, b, c turn counter-clockwise, zero where they lie on one line. About twice the
@@ -65,7 +68,9 @@ inline double orient2d(Vec2 a, Vec2 b, Vec2 c) {
 // with their order), zero where the four lie on one circle or line.
 inline double incircle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Filtered filtered = incircle_filter(a, b, c, d);
-  return filtered.certain ? filtered.value : incircle_exact(a, b, c, d);
+  if (filtered.certain) return filtered.value;
+  const Filtered wide = incircle_wide(a, b, c, d);
+  return wide.certain ? wide.value : incircle_exact(a, b, c, d);
 }
 
 }  // namespace wireskin

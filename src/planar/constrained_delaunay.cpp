@@ -1,10 +1,12 @@
 #include "planar/constrained_delaunay.h"
 
+#include "num/minmax.h"
 #include "num/predicates.h"
 
 namespace wireskin::planar {
 
-static constexpr uint32_t k_paired = 0x80000000u;  // CavityEdge::beyond: the partner's place follows
+static constexpr uint32_t k_paired =
+    0x80000000u;  // CavityEdge::beyond: the partner's place follows
 
 static Status touching() {
   return fail(Code::patch_folded, "a vertex of the border lies on another of its edges");
@@ -37,11 +39,11 @@ Status begin_box(Span<const Vec2> points, Triangulation* t) {
   for (const Vec2& p : points) {
     low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y};
     high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y};
-    reach = std::fmax(reach, std::fmax(std::fabs(p.x), std::fabs(p.y)));
+    reach = larger(reach, larger(std::fabs(p.x), std::fabs(p.y)));
   }
   // Wide enough that subtracting it changes every coordinate, even those of a single point.
-  double margin = std::fmax(high.x - low.x, high.y - low.y);
-  margin = std::fmax(margin, std::fmax(0x1p-40 * reach, k_least_coordinate));
+  double margin = larger(high.x - low.x, high.y - low.y);
+  margin = larger(margin, larger(0x1p-40 * reach, k_least_coordinate));
   TRY(t->points.reserve(points.size() + k_box_corners));
   TRY(t->leaving.resize(k_box_corners));
   TRY(t->triangles.resize(2));
@@ -110,9 +112,9 @@ static bool in_circumcircle(const Triangulation& t, uint32_t triangle, Vec2 p) {
   return incircle(t.points[v[0]], t.points[v[1]], t.points[v[2]], p) > 0.0;
 }
 
-// The triangles whose circumcircle holds p form a tree across their common edges, because p sees all
-// of them and none of their edges twice. Walking it depth first, counter-clockwise, gives the outline
-// in order.
+// The triangles whose circumcircle holds p form a tree across their common edges, because p sees
+// all of them and none of their edges twice. Walking it depth first, counter-clockwise, gives the
+// outline in order.
 Status collect_cavity(Triangulation* t, Vec2 p, uint32_t triangle) {
   t->outline.clear();
   t->cavity.clear();
@@ -205,8 +207,8 @@ static Status first_crossing(const Triangulation& t, uint32_t a, uint32_t b, uin
 }
 
 // Walks along a-b from its first crossing edge. Collects the crossed triangles in t->cavity and in
-// t->chain the edges of both sides: first those on the left from a to b, then those on the right from
-// b to a; `beyond` is for now the edge itself.
+// t->chain the edges of both sides: first those on the left from a to b, then those on the right
+// from b to a; `beyond` is for now the edge itself.
 static Status collect_corridor(Triangulation* t, uint32_t a, uint32_t b, uint32_t crossing,
                                size_t* left_count) {
   const Vec2 pa = t->points[a];
@@ -235,8 +237,8 @@ static Status collect_corridor(Triangulation* t, uint32_t a, uint32_t b, uint32_
   return {};
 }
 
-// Replaces each chain edge by what lies beyond it. An edge that hangs into the corridor has the chain
-// on both sides; there, the two places in the chain refer to each other.
+// Replaces each chain edge by what lies beyond it. An edge that hangs into the corridor has the
+// chain on both sides; there, the two places in the chain refer to each other.
 static void look_beyond(Triangulation* t, Span<CavityEdge> chain) {
   for (uint32_t i = 0; i < chain.size(); ++i) t->triangles[chain[i].beyond >> 2].mark = i;
   for (CavityEdge& edge : chain) edge.constrained = t->constrained(edge.beyond) ? 1u : 0u;
@@ -258,7 +260,8 @@ static void look_beyond(Triangulation* t, Span<CavityEdge> chain) {
 static void attach(Triangulation* t, Span<CavityEdge> chain, uint32_t place, uint32_t h) {
   const CavityEdge edge = chain[place];
   if (edge.beyond != k_none && (edge.beyond & k_paired) != 0) {
-    chain[edge.beyond & ~k_paired].beyond = h;  // the partner, when its turn comes, will link the two
+    chain[edge.beyond & ~k_paired].beyond =
+        h;  // the partner, when its turn comes, will link the two
   } else {
     link(t, h, edge.beyond);
   }
@@ -266,8 +269,8 @@ static void attach(Triangulation* t, Span<CavityEdge> chain, uint32_t place, uin
 }
 
 // The vertex between places first and last of the chain whose circle with both holds no other.
-static uint32_t delaunay_apex(const Triangulation& t, Span<const CavityEdge> chain, uint32_t closing,
-                              uint32_t first, uint32_t last) {
+static uint32_t delaunay_apex(const Triangulation& t, Span<const CavityEdge> chain,
+                              uint32_t closing, uint32_t first, uint32_t last) {
   const Vec2 a = t.points[chain[first].vertex];
   const Vec2 b = t.points[last < chain.size() ? chain[last].vertex : closing];
   uint32_t best = first + 1;
@@ -300,7 +303,8 @@ static ChainRange pop_range(Triangulation* t) {
 // `closing`, in the slots that `*slot` runs through. Returns the half-edge along the segment. Every
 // chain vertex sees the segment, so the triangle on it that is empty of chain vertices is Delaunay,
 // and the same holds for the two regions that it leaves. t->stack has room for it all.
-static uint32_t fill_side(Triangulation* t, Span<CavityEdge> chain, uint32_t closing, size_t* slot) {
+static uint32_t fill_side(Triangulation* t, Span<CavityEdge> chain, uint32_t closing,
+                          size_t* slot) {
   const uint32_t count = static_cast<uint32_t>(chain.size());
   uint32_t base = k_none;
   t->stack.clear();
@@ -316,8 +320,10 @@ static uint32_t fill_side(Triangulation* t, Span<CavityEdge> chain, uint32_t clo
     const uint32_t triangle = t->cavity[(*slot)++];
     const uint32_t end = last < count ? chain[last].vertex : closing;
     set_triangle(t, triangle, chain[first].vertex, end, chain[apex].vertex);
-    if (parent == k_none) base = 4 * triangle;
-    else link(t, 4 * triangle, parent);
+    if (parent == k_none)
+      base = 4 * triangle;
+    else
+      link(t, 4 * triangle, parent);
     push_range(t, first, apex, 4 * triangle + 2);
     push_range(t, apex, last, 4 * triangle + 1);
   }
@@ -384,7 +390,8 @@ Status mark_outside(Triangulation* t) {
     t->stack.pop();
     for (uint32_t h = 4 * triangle; h < 4 * triangle + 3; ++h) {
       const uint32_t g = t->twin(h);
-      if (g == k_none || t->constrained(h) || (t->triangles[g >> 2].flags & k_outside) != 0) continue;
+      if (g == k_none || t->constrained(h) || (t->triangles[g >> 2].flags & k_outside) != 0)
+        continue;
       t->triangles[g >> 2].flags |= k_outside;
       t->stack.push_reserved(g >> 2);
     }

@@ -1,11 +1,11 @@
 // A constrained Delaunay triangulation that grows: points and constraint edges are added one at a
 // time, and after each call every triangle's circumcircle is empty of the points visible from it.
 //
-// The triangulated region is a box wider than all points, so there is no special case at a hull; its
-// corners are the vertices 0 to 3. A constraint that would cross another one or touch a point, and a
-// point on a constraint, are refused with patch_folded and leave the triangulation as it was; after
-// any other failure it is of no more use. All decisions are exact. Edges are named by half-edges: 4 * triangle + corner, from that corner to the
-// next one counter-clockwise.
+// The triangulated region is a box wider than all points, so there is no special case at a hull;
+// its corners are the vertices 0 to 3. A constraint that would cross another one or touch a point,
+// and a point on a constraint, are refused with patch_folded and leave the triangulation as it
+// was; after any other failure it is of no more use. All decisions are exact. Edges are named by
+// half-edges: 4 * triangle + corner, from that corner to the next one counter-clockwise.
 // Cost: a point costs its walk and its cavity, both O(1) on average for points in the order of
 // insertion_order.h; a constraint costs at most the square of the number of triangles it crosses.
 // Sources: A. Bowyer, "Computing Dirichlet Tessellations", 1981, D. F. Watson, "Computing the
@@ -33,7 +33,8 @@ struct Triangle {
   uint32_t mark;       // scratch of recover_edge
 };
 
-// One edge of a cavity's outline, as seen from inside: the vertex it starts from and what lies beyond.
+// One edge of a cavity's outline, as seen from inside: the vertex it starts from and what lies
+// beyond.
 struct CavityEdge {
   uint32_t vertex;
   uint32_t beyond;
@@ -42,8 +43,13 @@ struct CavityEdge {
 
 struct Triangulation {
   explicit Triangulation(Context& context)
-      : points(context), triangles(context), leaving(context), outline(context), cavity(context),
-        stack(context), chain(context) {}
+      : points(context),
+        triangles(context),
+        leaving(context),
+        outline(context),
+        cavity(context),
+        stack(context),
+        chain(context) {}
 
   Array<Vec2> points;
   Array<Triangle> triangles;
@@ -51,7 +57,8 @@ struct Triangulation {
   uint32_t hint = 0;        // a triangle near the last change, where walks begin
   uint32_t dice = 1;        // keeps walks from running in circles, the same in every run
 
-  // Scratch: the outline and triangles of the present cavity, a stack, the two sides of a constraint.
+  // Scratch: the outline and triangles of the present cavity, a stack, the two sides of a
+  // constraint.
   Array<CavityEdge> outline;
   Array<uint32_t> cavity;
   Array<uint32_t> stack;
