@@ -25,7 +25,7 @@ struct Filtered {
   bool certain;
 };
 
-inline Filtered orient2d_filter(Vec2 a, Vec2 b, Vec2 c) {
+inline Filtered orient2d_filter(const Vec2& a, const Vec2& b, const Vec2& c) {
   constexpr double k_bound = (3.0 + 0x1p-49) * 0x1p-53;
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
@@ -33,7 +33,7 @@ inline Filtered orient2d_filter(Vec2 a, Vec2 b, Vec2 c) {
   return {det, std::fabs(det) >= k_bound * (std::fabs(left) + std::fabs(right))};
 }
 
-inline Filtered incircle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+inline Filtered incircle_filter(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   constexpr double k_bound = (10.0 + 0x1.8p-47) * 0x1p-53;
   const Vec2 ad = a - d;
   const Vec2 bd = b - d;
@@ -53,20 +53,20 @@ inline Filtered incircle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 // The stages behind the filters. incircle_wide computes in pairs of doubles, for the many
 // quadruples that lie on one circle but for the rounding of their coordinates.
-double orient2d_exact(Vec2 a, Vec2 b, Vec2 c);
-Filtered incircle_wide(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
-double incircle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+double orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c);
+Filtered incircle_wide(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
+double incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 // Positive where a, b, c turn counter-clockwise, zero where they lie on one line. About twice the
 // signed area of the triangle.
-inline double orient2d(Vec2 a, Vec2 b, Vec2 c) {
+inline double orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Filtered filtered = orient2d_filter(a, b, c);
   return filtered.certain ? filtered.value : orient2d_exact(a, b, c);
 }
 
 // Positive where d lies inside the circle through a, b, c (given counter-clockwise; the sign turns
 // with their order), zero where the four lie on one circle or line.
-inline double incircle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+inline double incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Filtered filtered = incircle_filter(a, b, c, d);
   if (filtered.certain) return filtered.value;
   const Filtered wide = incircle_wide(a, b, c, d);

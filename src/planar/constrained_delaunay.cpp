@@ -68,7 +68,8 @@ static uint32_t throw_dice(Triangulation* t) {
 
 // Where p lies in or on the triangle; `hidden` with the edge beyond which it lies otherwise. Edge
 // `entry` has p on the inner side.
-static Location place_in_triangle(Triangulation* t, Vec2 p, uint32_t triangle, uint32_t entry) {
+static Location place_in_triangle(Triangulation* t, const Vec2& p, uint32_t triangle,
+                                  uint32_t entry) {
   uint32_t zero[3];
   int zeros = 0;
   const uint32_t turn = throw_dice(t);
@@ -86,7 +87,7 @@ static Location place_in_triangle(Triangulation* t, Vec2 p, uint32_t triangle, u
   return {Where::on_vertex, Triangulation::next(zero[0]) == zero[1] ? zero[1] : zero[0]};
 }
 
-Location locate(Triangulation* t, Vec2 p, uint32_t triangle, bool stop_at_constraints) {
+Location locate(Triangulation* t, const Vec2& p, uint32_t triangle, bool stop_at_constraints) {
   uint32_t entry = k_none;
   const size_t most_steps = 4 * t->triangles.size() + 64;
   for (size_t step = 0; step < most_steps; ++step) {
@@ -107,7 +108,7 @@ Location locate(Triangulation* t, Vec2 p, uint32_t triangle, bool stop_at_constr
   return {Where::hidden, entry};
 }
 
-static bool in_circumcircle(const Triangulation& t, uint32_t triangle, Vec2 p) {
+static bool in_circumcircle(const Triangulation& t, uint32_t triangle, const Vec2& p) {
   const uint32_t* v = t.triangles[triangle].vertex;
   return incircle(t.points[v[0]], t.points[v[1]], t.points[v[2]], p) > 0.0;
 }
@@ -115,7 +116,7 @@ static bool in_circumcircle(const Triangulation& t, uint32_t triangle, Vec2 p) {
 // The triangles whose circumcircle holds p form a tree across their common edges, because p sees
 // all of them and none of their edges twice. Walking it depth first, counter-clockwise, gives the
 // outline in order.
-Status collect_cavity(Triangulation* t, Vec2 p, uint32_t triangle) {
+Status collect_cavity(Triangulation* t, const Vec2& p, uint32_t triangle) {
   t->outline.clear();
   t->cavity.clear();
   t->stack.clear();
@@ -136,7 +137,7 @@ Status collect_cavity(Triangulation* t, Vec2 p, uint32_t triangle) {
   return {};
 }
 
-Status fill_cavity(Triangulation* t, Vec2 p) {
+Status fill_cavity(Triangulation* t, const Vec2& p) {
   const size_t count = t->outline.size();
   WIRESKIN_ASSERT(count == t->cavity.size() + 2);
   if (t->points.size() >= k_most_vertices) {
@@ -163,7 +164,7 @@ Status fill_cavity(Triangulation* t, Vec2 p) {
   return {};
 }
 
-Status insert_point(Triangulation* t, Vec2 p) {
+Status insert_point(Triangulation* t, const Vec2& p) {
   const Location location = locate(t, p, t->hint, false);
   if (location.where == Where::on_vertex) {
     return fail(Code::patch_folded, "two points of the border coincide");
@@ -177,7 +178,7 @@ Status insert_point(Triangulation* t, Vec2 p) {
 }
 
 // Is u, a point on the line through a and b, on b's side of a?
-static bool is_ahead(Vec2 a, Vec2 b, Vec2 u) {
+static bool is_ahead(const Vec2& a, const Vec2& b, const Vec2& u) {
   if (b.x != a.x) return (b.x > a.x) == (u.x > a.x);
   return (b.y > a.y) == (u.y > a.y);
 }

@@ -90,16 +90,16 @@ Status begin_box(Span<const Vec2> points, Triangulation* t);
 
 // Finds p by walking from `triangle`. With stop_at_constraints, walks only through what the first
 // triangle can reach without crossing a constraint, and may report a reachable point as hidden.
-Location locate(Triangulation* t, Vec2 p, uint32_t triangle, bool stop_at_constraints);
+Location locate(Triangulation* t, const Vec2& p, uint32_t triangle, bool stop_at_constraints);
 
 // Collects in t->cavity and t->outline the triangles that p would replace, without changing any.
-Status collect_cavity(Triangulation* t, Vec2 p, uint32_t triangle);
+Status collect_cavity(Triangulation* t, const Vec2& p, uint32_t triangle);
 
 // Replaces the collected cavity by the triangles round the new vertex p, which share one vertex.
-Status fill_cavity(Triangulation* t, Vec2 p);
+Status fill_cavity(Triangulation* t, const Vec2& p);
 
 // Adds p as the next vertex.
-Status insert_point(Triangulation* t, Vec2 p);
+Status insert_point(Triangulation* t, const Vec2& p);
 
 // Makes the segment between vertices a and b an edge and a constraint. Neither is a box corner.
 Status recover_edge(Triangulation* t, uint32_t a, uint32_t b);

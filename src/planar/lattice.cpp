@@ -34,11 +34,13 @@ struct LatticeFrame {
   Vec2 origin, axis;
   double spacing;
 
-  Vec2 enter(Vec2 p) const {
+  Vec2 enter(const Vec2& p) const {
     const Vec2 d = p - origin;
     return (1.0 / spacing) * Vec2{dot(axis, d), cross(axis, d)};
   }
-  Vec2 leave(Vec2 p) const { return origin + spacing * (p.x * axis + p.y * Vec2{-axis.y, axis.x}); }
+  Vec2 leave(const Vec2& p) const {
+    return origin + spacing * (p.x * axis + p.y * Vec2{-axis.y, axis.x});
+  }
 };
 
 // The greatest integer not above x, for |x| < 2^62.
@@ -61,7 +63,8 @@ static LatticeFrame frame_of(Span<const Vec2> border, double spacing) {
   return frame;
 }
 
-static ClearedEdge clear_edge(const LatticeFrame& frame, Vec2 a, Vec2 b, uint32_t index) {
+static ClearedEdge clear_edge(const LatticeFrame& frame, const Vec2& a, const Vec2& b,
+                              uint32_t index) {
   ClearedEdge edge = {frame.enter(a), frame.enter(b), 0.0, 0.0, 0.0, index};
   edge.radius = k_clearance + std::fabs(length(edge.b - edge.a) - 1.0) / k_size_gradient;
   edge.low = smaller(edge.a.y, edge.b.y) - edge.radius;
@@ -69,7 +72,7 @@ static ClearedEdge clear_edge(const LatticeFrame& frame, Vec2 a, Vec2 b, uint32_
   return edge;
 }
 
-static void widen_by_disc(Vec2 centre, double radius, double y, ClearedPart* part) {
+static void widen_by_disc(const Vec2& centre, double radius, double y, ClearedPart* part) {
   const double half2 = radius * radius - (y - centre.y) * (y - centre.y);
   if (half2 < 0.0) return;
   const double half = std::sqrt(half2);
@@ -77,7 +80,7 @@ static void widen_by_disc(Vec2 centre, double radius, double y, ClearedPart* par
   part->to = larger(part->to, centre.x + half);
 }
 
-static void widen_by_segment(Vec2 a, Vec2 b, double y, ClearedPart* part) {
+static void widen_by_segment(const Vec2& a, const Vec2& b, double y, ClearedPart* part) {
   if ((a.y <= y) == (b.y <= y)) return;
   const double x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
   part->from = smaller(part->from, x);

@@ -12,7 +12,7 @@ static constexpr double k_least_step = 0.01;
 
 // Squared sine of the least angle. It lies opposite the shortest side, and its sine is twice the
 // area over the product of the other two.
-static double least_sine2(Vec2 a, Vec2 b, Vec2 c) {
+static double least_sine2(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double ab = dot(b - a, b - a);
   const double bc = dot(c - b, c - b);
   const double ca = dot(a - c, a - c);
@@ -23,7 +23,7 @@ static double least_sine2(Vec2 a, Vec2 b, Vec2 c) {
 
 // The least of that in the triangles round a vertex if it were at p; 0 if one of them did not turn
 // left. `h` leaves the vertex.
-static double star_quality(const Triangulation& t, uint32_t h, Vec2 p) {
+static double star_quality(const Triangulation& t, uint32_t h, const Vec2& p) {
   double least = 1.0;
   uint32_t spoke = h;
   do {
