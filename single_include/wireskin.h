@@ -3621,7 +3621,11 @@ CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s)
     t = inside < whole ? parameter_of_arc(curve.position, low, inside, whole)
                        : curve.position.knot[low + 1];
   }
-  return {spline_value(curve.position, low, t), unit(spline_value(curve.normal, low, t))};
+  /* Of normals that nearly cancel out rounding leaves some direction, which means nothing. */
+  constexpr double k_least_normal = 1e-3;
+  const Vec3 normal = spline_value(curve.normal, low, t);
+  const bool cancels = !(dot(normal, normal) > k_least_normal * k_least_normal);
+  return {spline_value(curve.position, low, t), cancels ? Vec3{} : unit(normal)};
 }
 
 Vec3 tangent_at_knot(const Curve& curve, uint32_t knot) {
