@@ -2,7 +2,7 @@
 // and fills result and report. The only file that sees both the public header and the inside.
 #include <cstdlib>
 
-#include "scale.h"
+#include "num/scale.h"
 #include "surface.h"
 #include "wireskin.h"
 
