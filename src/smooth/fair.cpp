@@ -161,7 +161,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), &solver, &guard,
                           report));
   }
-  report->residual = solver.residual();
+  if (options.displacement_steps > 0) report->residual = solver.residual();
   report->factorisations = solver.factorisations();
   report->iterations = solver.iterations();
   return {};
