@@ -53,7 +53,7 @@ Result build(const networks::Network& network, wsk_method method, double spacing
   for (size_t c = 0; c < network.curves.size(); ++c) {
     const auto& curve = network.curves[c];
     curves.push_back({curve.vertices.size(), positions[c][0].data(), 0, normals[c][0].data(), 0,
-                      curve.vertices.data(), curve.closed, curve.boundary});
+                      curve.vertices.data(), curve.closed, curve.boundary, 0.0});
   }
   const wsk_options options = options_for(method, spacing);
   Result result;
