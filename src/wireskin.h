@@ -107,9 +107,10 @@ enum {
   WSK_ERROR_INCONSISTENT_NORMALS = 17,
   /* The normal of a node is parallel to a curve through it: it cannot be the surface's. */
   WSK_ERROR_TANGENT_NORMAL = 18,
-  /* A patch whose normals cancel out, or that is seen edge-on or from behind along their mean. */
+  /* The border of a patch runs clockwise round its normals: the outside of an open surface whose
+     border is not tagged as boundary. */
   WSK_ERROR_PATCH_WITHOUT_PLANE = 19,
-  /* The border of a patch crosses or touches itself when projected to the patch's plane. */
+  /* The border of a patch crosses itself in space, or encloses nothing. */
   WSK_ERROR_PATCH_FOLDED = 20,
   /* A patch bounded by several loops, or by a curve passed on both sides. */
   WSK_ERROR_PATCH_SEVERAL_LOOPS = 21,
@@ -326,8 +327,9 @@ typedef struct wsk_curve {
  * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where two curves end at a node.
  *
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
- * tip of the node's normal. Each patch must be seen without folds from the mean of its normals and
- * be bounded by one loop.
+ * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen without
+ * folds from the mean of its normals it is triangulated in that plane, else by a triangulation of
+ * least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995).
  *
  * `options` may be null (defaults); `report` may be null. On success *surface is the result, to be
  * given to wsk_surface_free; on failure it is untouched. */

@@ -2,6 +2,7 @@
 
 #include "base/sort.h"
 #include "mesh/loop_mesh.h"
+#include "network/border.h"
 #include "network/enclosure.h"
 #include "planar/polygon_mesh.h"
 
@@ -158,6 +159,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
   if (status.code != Code::patch_without_plane && status.code != Code::patch_folded) return status;
+  TRY(check_border(scratch->loop.span(), scratch->loop_normal.span()));
   TRY(mesh_in_space(spacing, scratch));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
@@ -244,7 +246,8 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
   TRY(mesh->start.copy(vertices.position.span()));
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    TRY(at_patch(mesh_patch(network, vertices, enclosure, least_facing, p, &scratch, &builder), network, p));
+    TRY(at_patch(mesh_patch(network, vertices, enclosure, least_facing, p, &scratch, &builder),
+                 network, p));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));

@@ -34,8 +34,8 @@ struct PatchMesh {
 
 // `least_facing`: a plane is taken only where the cosine between its normal and each normal of the
 // border is at least this; -1 takes every plane that shows the border without folds.
-// Fails with patch_several_loops, or with patch_folded where the border encloses nothing in space
-// either, naming the patch.
+// Fails, naming the patch, with patch_several_loops, with patch_without_plane where the border runs
+// clockwise, with patch_folded where it crosses itself or encloses nothing in space either.
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
                     PatchMesh* mesh);
 

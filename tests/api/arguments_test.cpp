@@ -22,7 +22,7 @@ TEST_CASE("init functions write the defaults and leave bad pointers and sizes al
   CHECK(std::memcmp(&options, &before, sizeof options) == 0);
   wsk_options_init(&options, sizeof options);
   CHECK(options.size == sizeof options);
-  CHECK(options.method == WSK_METHOD_STANKO);
+  CHECK(options.method == WSK_METHOD_FAIR);
   CHECK(options.spacing == 0.0);
   CHECK(options.memory_cap == 0);
   CHECK_FALSE(bool(options.allocate));
@@ -79,7 +79,7 @@ TEST_CASE("structs of a newer caller") {
   wsk_report_init(&report.known, sizeof report);
   CHECK(tail_is(options, 0));
   CHECK(tail_is(report, 0));
-  CHECK(options.known.method == WSK_METHOD_STANKO);
+  CHECK(options.known.method == WSK_METHOD_FAIR);
   options.known.spacing = scene.spacing;
   std::memset(options.later, 0x77, sizeof options.later);
   std::memset(report.later, 0x77, sizeof report.later);

@@ -38,7 +38,7 @@ TEST_CASE("everything given") {
 TEST_CASE("defaults") {
   const Arguments arguments = parse_arguments({"in.net", "-o", "out.obj"});
   CHECK(arguments.spacing == 0.0);
-  CHECK(arguments.method == WSK_METHOD_STANKO);
+  CHECK(arguments.method == WSK_METHOD_FAIR);
   CHECK(arguments.report.empty());
   CHECK(arguments.image.empty());
   CHECK_FALSE(arguments.quiet);

@@ -43,7 +43,7 @@ TEST_CASE("every value under its name") {
   CHECK(values["version"] == wsk_version_string());
   CHECK(values["input"] == arguments.input);
   CHECK(values["output"] == "x.ply");
-  CHECK(values["method"] == "stanko");
+  CHECK(values["method"] == "fair");
   CHECK(values["status"] == "ok");
   CHECK(values["stage"] == "result");
   CHECK(values["sentence"] == "null");

@@ -13,10 +13,14 @@ struct Golden {
 };
 
 inline constexpr Golden k_golden[] = {
-    {"octants", WSK_METHOD_STANKO, 0x4d65daff209c35c2u},
-    {"saddle", WSK_METHOD_STANKO, 0x063f2889f06b9fefu},
-    {"band", WSK_METHOD_STANKO, 0xca9b8ec3075f392cu},
+    {"octants", WSK_METHOD_STANKO, 0x4dd627dbb6777194u},
+    {"saddle", WSK_METHOD_STANKO, 0x88f8217504c0c314u},
+    {"band", WSK_METHOD_STANKO, 0xa2655a6f7acc3859u},
     {"octants", WSK_METHOD_BIHARMONIC, 0x84cfcf068738117cu},
     {"octants", WSK_METHOD_TRIHARMONIC, 0x3644d899adc2c920u},
-    {"octants", WSK_METHOD_CLAMPED, 0x24fb9a746cbdfd8fu},
+    {"octants", WSK_METHOD_CLAMPED, 0xc955dbd913d36d0eu},
+    {"octants", WSK_METHOD_ITERATED, 0},
+    {"noisy", WSK_METHOD_FAIR, 0},
+    {"band", WSK_METHOD_FAIR, 0},
+    {"saddle", WSK_METHOD_FAIR, 0},
 };

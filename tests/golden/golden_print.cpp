@@ -9,7 +9,8 @@
 
 int main(int argc, char** argv) {
   const bool by_array = argc > 1 && std::strcmp(argv[1], "--arrays") == 0;
-  const char* const k_methods[] = {"STANKO", "BIHARMONIC", "TRIHARMONIC", "CLAMPED"};
+  const char* const k_methods[] = {"STANKO",  "BIHARMONIC", "TRIHARMONIC",
+                                   "CLAMPED", "ITERATED",   "FAIR"};
   int wrong = 0;
   for (const Golden& golden : k_golden) {
     for (const scenes::Scene& scene : scenes::all()) {

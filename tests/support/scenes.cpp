@@ -152,8 +152,26 @@ Scene band() {
   return scene;
 }
 
+Scene noisy() {
+  Scene scene = ellipsoid();
+  scene.name = "noisy";
+  scene.method = WSK_METHOD_FAIR;
+  scene.spacing = 0.3;
+  uint32_t state = 1;  // a linear congruential generator: the same noise everywhere
+  for (Curve& curve : scene.curves) {
+    for (size_t i = 0; i < curve.size(); ++i) {
+      if (curve.nodes[i] != WSK_NONE) continue;
+      for (size_t k = 0; k < 3; ++k) {
+        state = state * 1664525u + 1013904223u;
+        curve.positions[3 * i + k] += 0.01 * (static_cast<double>(state >> 8) / 16777216.0 - 0.5);
+      }
+    }
+  }
+  return scene;
+}
+
 std::vector<Scene> all() {
-  return {octants(), saddle(), band()};
+  return {octants(), saddle(), band(), noisy()};
 }
 
 std::vector<wsk_curve> curves_of(const Scene& scene) {
@@ -186,6 +204,7 @@ wsk_options options_of(const Scene& scene) {
   wsk_options options;
   wsk_options_init(&options, sizeof options);
   options.spacing = scene.spacing;
+  options.method = scene.method;
   return options;
 }
 
@@ -278,6 +297,10 @@ std::string hashes_by_array(const Result& result) {
          named_hash("triangle_patch", result.triangle_patch) +
          named_hash("curve_edges", result.curve_edges) +
          named_hash("curve_edge_curve", result.curve_edge_curve);
+}
+
+Result result_of(const Scene& scene) {
+  return result_of(scene, scene.method);
 }
 
 Result result_of(const Scene& scene, wsk_method method) {

@@ -28,6 +28,7 @@ struct Scene {
   std::string name;
   std::vector<Curve> curves;
   double spacing = 0.0;
+  wsk_method method = WSK_METHOD_STANKO;
 
   std::vector<double> positions;
   std::vector<double> normals;
@@ -42,7 +43,9 @@ Scene octants();
 Scene saddle();
 // A cylinder between two circles whose normals are turned up and down, so that it becomes a barrel.
 Scene band();
-// octants(), saddle() and band().
+// An ellipsoid with noisy samples, surfaced by the default method: every stage does its work.
+Scene noisy();
+// octants(), saddle(), band() and noisy().
 std::vector<Scene> all();
 
 // Three closed curves on an ellipsoid with unequal axes, unevenly sampled: no symmetry within a
@@ -53,7 +56,7 @@ Scene ellipsoid();
 std::vector<wsk_curve> curves_of(const Scene& scene);
 wsk_mesh mesh_of(const Scene& scene);
 
-// Defaults with the scene's spacing.
+// Defaults with the scene's spacing and method.
 wsk_options options_of(const Scene& scene);
 
 // wsk_build or wsk_smooth_mesh, whichever the scene is for.
@@ -75,6 +78,7 @@ uint64_t hash_of(const Result& result);
 std::string hashes_by_array(const Result& result);
 
 // Runs the scene with its own options and the given method; an empty result where that fails.
-Result result_of(const Scene& scene, wsk_method method = WSK_METHOD_STANKO);
+Result result_of(const Scene& scene, wsk_method method);
+Result result_of(const Scene& scene);  // by its own method
 
 }  // namespace scenes

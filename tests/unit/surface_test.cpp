@@ -20,6 +20,7 @@ struct Input {
   std::vector<uint32_t> start = {0}, number;
   std::vector<Vec3> position, normal;
   std::vector<uint8_t> closed, boundary;
+  std::vector<double> soft;
   Surface surface{heap.context};
 
   explicit Input(const CurveNet& net) {
@@ -30,13 +31,14 @@ struct Input {
       start.push_back(static_cast<uint32_t>(position.size()));
       closed.push_back(c.closed);
       boundary.push_back(c.boundary);
+      soft.push_back(0.0);
     }
   }
   Status run(double spacing, Method method = Method::stanko) {
-    return surface_curves(
-        heap.context,
-        {view(start), span(position), span(normal), view(number), view(closed), view(boundary)},
-        method, spacing, &surface);
+    return surface_curves(heap.context,
+                          {view(start), span(position), span(normal), view(number), view(closed),
+                           view(boundary), view(soft)},
+                          {method, spacing, {wireskin::network::Noise::none, 0.0}}, &surface);
   }
 };
 
@@ -50,9 +52,9 @@ struct TriangleInput {
   explicit TriangleInput(Mesh m)
       : mesh(std::move(m)), normal(mesh.position), held(mesh.vertices()) {}
   Status run(Method method = Method::stanko) {
-    return surface_triangles(heap.context,
-                             {view(mesh.position), view(normal), view(held), view(mesh.triangle)},
-                             method, &surface);
+    return surface_triangles(
+        heap.context, {view(mesh.position), view(normal), view(held), view(mesh.triangle), 0.0},
+        {method, 0.0, {}}, &surface);
   }
 };
 

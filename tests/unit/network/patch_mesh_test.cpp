@@ -138,12 +138,6 @@ TEST_CASE("patch_mesh: a chord of two patches is split") {
 }
 
 TEST_CASE("patch_mesh: failures name the patch") {
-  CurveNet capped = cylinder_net(4, false);  // the caps' normals lie in their planes
-  Stages s(capped);
-  CHECK(!s.mesh_patches(0.3));
-  CHECK(s.status.code == Code::patch_without_plane);
-  CHECK(s.status.place.patch < 6);
-
   CurveNet clockwise = saddle_net(false);  // the outside of the square
   Stages t(clockwise);
   CHECK(!t.mesh_patches(0.3));
@@ -153,13 +147,33 @@ TEST_CASE("patch_mesh: failures name the patch") {
   CurveNet eight;  // crosses itself
   eight.add(60, true, true, [](double u) {
     const double a = 2 * k_pi * (u + 0.01);
-    return std::make_pair(Vec3{std::sin(2 * a), 0.6 * std::sin(a) + 1e-3, 0.3 * std::cos(a)},
-                          Vec3{0, 0, 1});
+    return std::make_pair(Vec3{std::sin(2 * a), 0.6 * std::sin(a) + 1e-3, 0.0}, Vec3{0, 0, 1});
   });
   Stages e(eight);
   CHECK(!e.mesh_patches(0.2));
   CHECK(e.status.code == Code::patch_folded);
   CHECK(e.status.place.patch == 0);
+}
+
+TEST_CASE("patch_mesh: what no plane shows is meshed in space") {
+  CurveNet capped = cylinder_net(4, false);  // the caps' normals lie in their planes
+  Stages s(capped);
+  REQUIRE(s.mesh_patches(0.3));
+  size_t in_space = 0;
+  for (wireskin::network::PatchWay way : s.mesh.way) {
+    in_space += way == wireskin::network::PatchWay::minimal_area;
+  }
+  CHECK(in_space == 2);
+
+  CurveNet ramp;  // an eight whose two branches pass above each other
+  ramp.add(60, true, true, [](double u) {
+    const double a = 2 * k_pi * (u + 0.01);
+    return std::make_pair(Vec3{std::sin(2 * a), 0.6 * std::sin(a) + 1e-3, 0.3 * std::cos(a)},
+                          Vec3{0, 0, 1});
+  });
+  Stages e(ramp);
+  REQUIRE(e.mesh_patches(0.2));
+  CHECK(e.mesh.way[0] == wireskin::network::PatchWay::minimal_area);
 }
 
 TEST_CASE("patch_mesh: every failed allocation is a status, without a leak") {
@@ -168,7 +182,7 @@ TEST_CASE("patch_mesh: every failed allocation is a status, without a leak") {
     Stages s(melon(3, 0.3));
     REQUIRE(s.resample(100.0));
     first = s.heap.allocator.calls;
-    must(mesh_patches(s.network, s.vertices, &s.mesh));
+    must(mesh_patches(s.network, s.vertices, -1.0, &s.mesh));
     last = s.heap.allocator.calls;
   }
   CHECK(last > first);

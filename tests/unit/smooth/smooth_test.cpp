@@ -90,9 +90,15 @@ TEST_CASE("smooth: a planar patch with plane normals stays plane, whatever the m
         if (!s.held[v]) position[v] = {7, 7, 7}, normal[v] = {};
       }
       double residual = -1.0;
-      must(wireskin::smooth::smooth(
-          heap.context, {view(s.flat.triangle), shapes.span(), view(s.held), view(s.rim), metric},
-          method, {span(position), span(normal)}, &residual));
+      must(wireskin::smooth::smooth(heap.context,
+                                    {view(s.flat.triangle),
+                                     shapes.span(),
+                                     view(s.held),
+                                     view(s.held),
+                                     view(s.rim),
+                                     metric,
+                                     {}},
+                                    method, {span(position), span(normal)}, &residual));
       CHECK(residual >= 0.0);
       CHECK(residual < 1e-9);
       double off_plane = 0.0;
@@ -125,7 +131,8 @@ TEST_CASE("smooth: the paper's method follows a sphere where the biharmonic one 
     std::vector<Vec3> position = mesh.position, normal = mesh.position;
     double residual = 0.0, worst = 0.0;
     must(wireskin::smooth::smooth(
-        heap.context, {view(mesh.triangle), shapes.span(), view(held), view(rim), Metric::space},
+        heap.context,
+        {view(mesh.triangle), shapes.span(), view(held), view(held), view(rim), Metric::space, {}},
         method, {span(position), span(normal)}, &residual));
     for (const Vec3& p : position) worst = std::fmax(worst, std::fabs(length(p) - 1.0));
     return worst;
@@ -166,10 +173,16 @@ TEST_CASE("smooth: cancelled at any checkpoint, out of any memory") {
       std::vector<Vec3> position = s.tilted.position, normal(position.size(), s.normal);
       double residual = 0.0;
       if (status.ok()) {
-        status = wireskin::smooth::smooth(
-            heap.context,
-            {view(s.flat.triangle), shapes.span(), view(s.held), view(s.rim), Metric::space},
-            Method::clamped, {span(position), span(normal)}, &residual);
+        status =
+            wireskin::smooth::smooth(heap.context,
+                                     {view(s.flat.triangle),
+                                      shapes.span(),
+                                      view(s.held),
+                                      view(s.held),
+                                      view(s.rim),
+                                      Metric::space,
+                                      {}},
+                                     Method::clamped, {span(position), span(normal)}, &residual);
       }
       checkpoints = heap.checkpoints;
       allocations = heap.allocator.calls;

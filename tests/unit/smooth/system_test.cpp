@@ -77,8 +77,8 @@ struct Problem {
   double run(Order order, const std::vector<Vec3>& target, std::vector<Vec3>* value) {
     double residual = -1.0;
     must(system.prepare(laplacian, view(held), order));
-    must(system.factor(view(weight)));
-    must(system.solve(view(target), span(*value), &residual));
+    must(system.factor(view(weight), {}));
+    must(system.solve(view(target), {}, span(*value), &residual));
     return residual;
   }
   // The free values that make the gradient of the energy zero: P_ff v_f = (L W T)_f - P_fc v_c.
@@ -153,13 +153,13 @@ TEST_CASE("system: targets, new weights and several solves with one analysis") {
     const std::vector<Vec3> expected = p.expected(Order::two, target, value);
     double residual = -1.0;
     if (round == 0) must(p.system.prepare(p.laplacian, view(p.held), Order::two));
-    must(p.system.factor(view(p.weight)));
-    must(p.system.solve(view(target), span(value), &residual));
+    must(p.system.factor(view(p.weight), {}));
+    must(p.system.solve(view(target), {}, span(value), &residual));
     CHECK(distance(value, expected) < 1e-10);
     // The same factor again, with other values.
     std::vector<Vec3> again = random_vectors(mesh.vertices(), random);
     const std::vector<Vec3> expected_again = p.expected(Order::two, {}, again);
-    must(p.system.solve({}, span(again), &residual));
+    must(p.system.solve({}, {}, span(again), &residual));
     CHECK(distance(again, expected_again) < 1e-10);
     for (double& w : p.weight) w *= 1.0 + 0.9 * random();
   }
@@ -233,5 +233,5 @@ TEST_CASE("system: nothing held is not positive definite, or nearly so") {
   Problem p(mesh, std::vector<uint8_t>(12, 0));
   for (double& w : p.weight) w = 0.0;
   must(p.system.prepare(p.laplacian, view(p.held), Order::two));
-  CHECK(p.system.factor(view(p.weight)).code == Code::not_positive_definite);
+  CHECK(p.system.factor(view(p.weight), {}).code == Code::not_positive_definite);
 }
