@@ -18,9 +18,13 @@ file(MAKE_DIRECTORY ${OUT})
 set(failed 0)
 foreach(network IN LISTS networks)
   get_filename_component(name ${network} NAME_WE)
+  set(up z)
+  if(name STREQUAL "spot")
+    set(up y)  # the model's own convention
+  endif()
   execute_process(
     COMMAND ${COMMAND} ${network} -o ${OUT}/${name}.obj --image ${OUT}/${name}.png
-            --report ${OUT}/${name}.json
+            --report ${OUT}/${name}.json --up ${up}
     RESULT_VARIABLE result)
   if(result EQUAL 0)
     file(READ ${OUT}/${name}.json report)

@@ -137,6 +137,21 @@ foreach(file IN LISTS order)
                         "of the header in a C89 program")
   endif()
 
+  # A C program skips the implementation but reads it as tokens: a lone quote in a // comment or
+  # between digits would be an error. The comments are therefore written as /* */ at the end.
+  if(text MATCHES "([0-9]+'[0-9]+)")
+    message(FATAL_ERROR "src/${file}: write ${CMAKE_MATCH_1} without a separator between digits")
+  endif()
+  string(REGEX MATCHALL "\n[^\n\"/]*\"[^\n]*//" quoted_lines "${text}")
+  foreach(line IN LISTS quoted_lines)
+    string(REGEX REPLACE "//.*$" "" before "${line}")
+    string(REGEX REPLACE "${k_backslash}\"" "" before "${before}")
+    string(REGEX REPLACE "\"[^\"]*\"" "" before "${before}")
+    if(before MATCHES "\"")
+      message(FATAL_ERROR "src/${file}: a string with two slashes would become a comment: ${line}")
+    endif()
+  endforeach()
+
   # Marks split the text at namespaces and at definitions.
   string(REGEX REPLACE "\n(namespace [^\n{]*{|namespace {|}  // namespace[^\n]*)" "\n${k_mark}\\1"
          text "${text}")
@@ -220,16 +235,16 @@ string(APPEND output "${public_header}" "
 #endif
 
 ${system_lines}
-// What the includer's macros and floating-point settings were, they are again at the end.
+/* What the includer's macros and floating-point settings were, they are again at the end. */
 ${save_macros}#if defined(__clang__)
 #pragma float_control(push)
 #elif defined(__GNUC__)
 #pragma GCC push_options
+#if __GNUC__ >= 11 /* drops stores of small structs passed by value, see CMakeLists.txt */
+#pragma GCC optimize(\"no-ipa-modref\")
+#endif
 #elif defined(_MSC_VER)
 #pragma float_control(push)
-#endif
-#if defined(__GNUC__)
-#pragma GCC visibility push(hidden)  // a shared library around this exports the C functions only
 #endif
 ")
 foreach(file IN LISTS order)
@@ -240,16 +255,14 @@ foreach(file IN LISTS order)
     string(REPLACE "\n#include <${name}>" "" text "${text}")
   endforeach()
   string(REGEX REPLACE "\n#pragma once" "" text "${text}")
+  string(REGEX REPLACE "//([^\n]*)" "/*\\1 */" text "${text}")
   string(REGEX REPLACE "\n\n\n+" "\n\n" text "${text}")
   string(REGEX REPLACE "\n+$" "\n" text "${text}")
   string(REGEX REPLACE "^\n+" "" text "${text}")
-  string(APPEND output "\n// ======== begin src/${file} ========\n${text}"
-                       "// ======== end src/${file} ========\n")
+  string(APPEND output "\n/* ======== begin src/${file} ======== */\n${text}"
+                       "/* ======== end src/${file} ======== */\n")
 endforeach()
 string(APPEND output "
-#if defined(__GNUC__)
-#pragma GCC visibility pop
-#endif
 #if defined(__clang__)
 #pragma float_control(pop)
 #elif defined(__GNUC__)

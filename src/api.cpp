@@ -390,8 +390,12 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   for (Vec3& p : storage.position) p = scale(p);
   const CurveSet set = {storage.start.span(),  storage.position.span(), storage.normal.span(),
                         storage.number.span(), storage.closed.span(),   storage.boundary.span()};
-  const Status status = surface_curves(context, set, static_cast<smooth::Method>(options.method),
-                                       scale(options.spacing), &surface);
+  const double spacing = scale(options.spacing);
+  if (spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default
+    return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  const Status status =
+      surface_curves(context, set, static_cast<smooth::Method>(options.method), spacing, &surface);
   report_counts(surface.counts, Scale(exponent), report);
   TRY(status);
   return make_handle(context, surface, exponent, out);

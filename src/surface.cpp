@@ -44,6 +44,8 @@ static Status fit_curves(Context& context, const CurveSet& set, double size,
     set.normal[i] = (*nodes)[node[i]].normal;
   }
   for (uint32_t c = 0; c < counts->curves; ++c) {
+    // Neighbours that differed by less than the tolerance may have become one point.
+    TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
     TRY(at_curve(curves::add_curve(samples_of(set, node.span(), c), fitted), c));
     TRY(context.progress(static_cast<double>(c + 1) / counts->curves));
   }

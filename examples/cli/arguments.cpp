@@ -22,8 +22,9 @@ usage: wireskin [options] INPUT -o OUTPUT
 INPUT is a network of curves with surface normals:
   .net   the number of vertices, a row x y z nx ny nz for each, the number of curves, and for
          each curve a line 0 or 1 (1: boundary) and a line of vertex indices from 0
-  .obj   v, vn (one for each v, in the same order) and l with any number of indices; all else is
-         passed over. Curves after a g or o whose name contains "boundary" are boundary curves.
+  .obj   v, vn (one for each v, in the same order) and l, each of which is one curve with any
+         number of indices; all else is passed over. Curves after a g or o whose name contains
+         "boundary" (in upper or lower case), up to the next g or o, are boundary curves.
 Curves meet where they share a vertex. A curve is closed if its last index repeats its first.
 Boundary curves are those where the surface ends. Normals point to the outer side.
 
@@ -37,11 +38,13 @@ options:
   --spacing LENGTH   distance of vertices along the curves, in the units of the input
                      (default: a hundredth of the diagonal of the bounding box)
   --method NAME      stanko (default): mean curvature follows the normals
-                     biharmonic, triharmonic: least square Laplacian, normals not used
+                     biharmonic, triharmonic: least square Laplacian, which lets the normals
+                     order the curves but not shape the surface
                      clamped: biharmonic with curvature prescribed on the curves
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
                      written too, with the place of the fault, if no surface can be built
   --image FILE.png   write a shaded picture with isophote stripes and the curves
+  --up x|y|z         the axis that points up in the picture (default: z)
   --quiet            no progress, no summary
   --help             print this
   --version          print the version
@@ -72,6 +75,13 @@ double spacing_of(const std::string& text) {
     wrong_usage("--spacing needs a length above zero, not " + in_quotes(text));
   }
   return spacing;
+}
+
+int axis_of(const std::string& name) {
+  const std::string axes = "xyz";
+  const size_t axis = name.size() == 1 ? axes.find(name) : std::string::npos;
+  if (axis == std::string::npos) wrong_usage("--up needs x, y or z, not " + in_quotes(name));
+  return static_cast<int>(axis);
 }
 
 // Splits "--name=value"; takes the value from the next word otherwise.
@@ -136,6 +146,8 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.spacing = spacing_of(words.value());
   } else if (words.is("--method")) {
     arguments.method = method_of(words.value());
+  } else if (words.is("--up")) {
+    arguments.up_axis = axis_of(words.value());
   } else if (words.is("--report")) {
     arguments.report = words.value();
   } else if (words.is("--image")) {

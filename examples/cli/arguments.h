@@ -17,6 +17,7 @@ struct Arguments {
   std::string image;
   double spacing = 0.0;  // 0: the library's default
   wsk_method method = WSK_METHOD_STANKO;
+  int up_axis = 2;  // of the picture: 0, 1, 2 for x, y, z
   bool quiet = false;
   bool help = false;
   bool version = false;

@@ -34,30 +34,47 @@ static Vec3 mean_normal(const wsk_surface_view& surface) {
   return area > 0.0 ? (1.0 / area) * sum : Vec3{};
 }
 
-// Azimuth from the x axis and elevation above the ground, in degrees; `sky` is 1, or -1 to look
-// with z down.
-static Frame frame_at(double azimuth, double elevation, double sky) {
+// Two axes of the ground and the one upwards, right-handed.
+struct Ground {
+  Vec3 first;
+  Vec3 second;
+  Vec3 up;
+};
+
+static Ground ground_of(int up_axis) {
+  constexpr Vec3 k_axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  return {k_axes[(up_axis + 1) % 3], k_axes[(up_axis + 2) % 3], k_axes[up_axis]};
+}
+
+// Azimuth from the ground's first axis and elevation above it, in degrees; `sky` is 1, or -1 to
+// look with the axis upwards pointing down.
+static Frame frame_at(const Ground& ground, double azimuth, double elevation, double sky) {
   const double a = azimuth * k_degree;
   const double e = elevation * k_degree;
-  const Vec3 up = {0.0, 0.0, sky};
+  const Vec3 up = sky * ground.up;
   Frame frame;
-  frame.toward = {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), sky * std::sin(e)};
+  frame.toward =
+      std::cos(e) * (std::cos(a) * ground.first + std::sin(a) * ground.second) + std::sin(e) * up;
   frame.right = unit(cross(up, frame.toward));
   frame.up = cross(frame.toward, frame.right);
   return frame;
 }
 
-std::array<Frame, 2> choose_frames(const wsk_surface_view& surface) {
+std::array<Frame, 2> choose_frames(const wsk_surface_view& surface, int up_axis) {
   constexpr double k_azimuth = -60.0;
+  const Ground ground = ground_of(up_axis);
   const Vec3 mean = mean_normal(surface);
   const double openness = length(mean);
-  if (openness < 0.15) return {frame_at(k_azimuth, 28, 1), frame_at(k_azimuth + 180, -18, 1)};
-  if (std::fabs(mean.z) > 0.6 * openness) {
-    const double sky = mean.z > 0.0 ? 1.0 : -1.0;
-    return {frame_at(k_azimuth, 50, sky), frame_at(k_azimuth + 115, 28, sky)};
+  if (openness < 0.15) {
+    return {frame_at(ground, k_azimuth, 28, 1), frame_at(ground, k_azimuth + 180, -18, 1)};
   }
-  const double facing = std::atan2(mean.y, mean.x) / k_degree;
-  return {frame_at(facing + 30, 20, 1), frame_at(facing - 45, 30, 1)};
+  const double rise = dot(mean, ground.up);
+  if (std::fabs(rise) > 0.6 * openness) {
+    const double sky = rise > 0.0 ? 1.0 : -1.0;
+    return {frame_at(ground, k_azimuth, 50, sky), frame_at(ground, k_azimuth + 115, 28, sky)};
+  }
+  const double facing = std::atan2(dot(mean, ground.second), dot(mean, ground.first)) / k_degree;
+  return {frame_at(ground, facing + 30, 20, 1), frame_at(ground, facing - 45, 30, 1)};
 }
 
 Extent extent_in(const Frame& frame, const wsk_surface_view& surface) {

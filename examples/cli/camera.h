@@ -1,6 +1,6 @@
 // From which two sides a surface is looked at, and where its points fall on the screen.
 //
-// Up is z. A sheet is seen from above and from a low side, a mask that faces sideways from two
+// A sheet is seen from above and from a low side, a mask that faces sideways from two
 // sides of its face, a closed surface from two opposite sides. Orthographic.
 #pragma once
 
@@ -19,7 +19,8 @@ struct Frame {
   Vec3 toward;
 };
 
-std::array<Frame, 2> choose_frames(const wsk_surface_view& surface);
+// `up_axis` is 0, 1 or 2 for x, y or z.
+std::array<Frame, 2> choose_frames(const wsk_surface_view& surface, int up_axis);
 
 // The extent of the surface in a frame.
 struct Extent {

@@ -36,7 +36,7 @@ static void write_outputs(const Arguments& arguments, const Network& network,
   OutputFiles files;
   files.add(arguments.output, mesh_bytes(surface, arguments.output));
   if (!arguments.image.empty()) {
-    files.add(arguments.image, png_bytes(draw_picture(surface, network)));
+    files.add(arguments.image, png_bytes(draw_picture(surface, network, arguments.up_axis)));
   }
   if (!arguments.report.empty()) {
     files.add(arguments.report, report_json(arguments, report));

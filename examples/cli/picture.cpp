@@ -132,8 +132,8 @@ Camera camera_of(const Frame& frame, const Extent& extent, double scale, int hei
 
 }  // namespace
 
-Image draw_picture(const wsk_surface_view& surface, const Network& network) {
-  const std::array<Frame, 2> frames = choose_frames(surface);
+Image draw_picture(const wsk_surface_view& surface, const Network& network, int up_axis) {
+  const std::array<Frame, 2> frames = choose_frames(surface, up_axis);
   const Extent extents[2] = {extent_in(frames[0], surface), extent_in(frames[1], surface)};
   const double scale = common_scale(extents[0], extents[1]);
   const int height = image_height(extents[0], extents[1], scale);

@@ -11,6 +11,7 @@
 
 namespace wireskin_cli {
 
-Image draw_picture(const wsk_surface_view& surface, const Network& network);
+// `up_axis` is 0, 1 or 2 for x, y or z.
+Image draw_picture(const wsk_surface_view& surface, const Network& network, int up_axis);
 
 }  // namespace wireskin_cli

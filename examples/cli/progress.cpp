@@ -40,28 +40,48 @@ static bool stderr_is_terminal() {
 
 ProgressLine::ProgressLine(bool wanted)
     : wanted_(wanted && stderr_is_terminal()),
-      next_(Clock::now() + std::chrono::milliseconds(500)) {}
+      start_(Clock::now()),
+      next_(start_ + std::chrono::milliseconds(500)) {}
 
-void ProgressLine::show(wsk_stage stage, double fraction) {
-  if (!wanted_ || Clock::now() < next_) return;
-  next_ = Clock::now() + std::chrono::milliseconds(100);
-  std::fprintf(stderr, "\r%-9s %3.0f %%", wsk_stage_name(stage), 100.0 * fraction);
+void ProgressLine::set(wsk_stage stage, double fraction) {
+  stage_ = stage;
+  fraction_ = fraction;
+  refresh();
+}
+
+void ProgressLine::refresh() {
+  if (!wanted_) return;
+  const Clock::time_point now = Clock::now();
+  if (now < next_) return;
+  next_ = now + std::chrono::milliseconds(200);
+  const std::chrono::duration<double> elapsed = now - start_;
+  std::fprintf(stderr, "\r%-10s", wsk_stage_name(stage_));
+  // Stages that do not say how far they are stay at zero.
+  if (fraction_ > 0.0) {
+    std::fprintf(stderr, "%3.0f %%", 100.0 * fraction_);
+  } else {
+    std::fprintf(stderr, "     ");
+  }
+  std::fprintf(stderr, "%6.1f s", elapsed.count());
   std::fflush(stderr);
   on_screen_ = true;
 }
 
 void ProgressLine::clear() {
   if (!on_screen_) return;
-  std::fprintf(stderr, "\r%15s\r", "");
+  std::fprintf(stderr, "\r%24s\r", "");
   std::fflush(stderr);
   on_screen_ = false;
 }
 
 BuildCallbacks ProgressLine::callbacks() {
   BuildCallbacks callbacks;
-  callbacks.cancel = [](void*) -> int32_t { return cancel_wanted() ? 1 : 0; };
+  callbacks.cancel = [](void* user) -> int32_t {
+    static_cast<ProgressLine*>(user)->refresh();
+    return cancel_wanted() ? 1 : 0;
+  };
   callbacks.progress = [](wsk_stage stage, double fraction, void* user) {
-    static_cast<ProgressLine*>(user)->show(stage, fraction);
+    static_cast<ProgressLine*>(user)->set(stage, fraction);
   };
   callbacks.user = this;
   return callbacks;

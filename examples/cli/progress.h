@@ -1,6 +1,8 @@
 // The line on a terminal that tells how far long work has come, and the wish to cancel (Ctrl-C).
 //
-// Nothing is printed in the first half second, nor when standard error is no terminal.
+// The line tells the stage, how much of it is done as far as the library says, and the seconds
+// since the start. Nothing is printed in the first half second, nor when standard error is no
+// terminal.
 #pragma once
 
 #include <chrono>
@@ -20,7 +22,9 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  void show(wsk_stage stage, double fraction);
+  void set(wsk_stage stage, double fraction);
+  // Brings the screen up to date; to be called often.
+  void refresh();
   void clear();
 
   // Both for the library, with this object as their user pointer.
@@ -30,6 +34,9 @@ class ProgressLine {
   using Clock = std::chrono::steady_clock;
   bool wanted_;
   bool on_screen_ = false;
+  wsk_stage stage_ = WSK_STAGE_INPUT;
+  double fraction_ = 0.0;
+  Clock::time_point start_;
   Clock::time_point next_;
 };
 

@@ -75,8 +75,14 @@ static Status thin(const Samples& samples, uint32_t start, Array<uint32_t>* kept
   if (samples.closed && samples.node[kept->back()] == k_none && near(kept->back(), (*kept)[0])) {
     kept->pop();
   }
-  const bool enough = kept->size() >= (samples.closed ? 3u : 2u);
-  if (!enough) {  // a polygon of very uneven sides: better all of them than a line to and fro
+  bool whole = kept->size() >= (samples.closed ? 3u : 2u);
+  for (size_t k = samples.closed ? 0 : 1; whole && k < kept->size(); ++k) {
+    const uint32_t before = (*kept)[k == 0 ? kept->size() - 1 : k - 1];
+    whole = samples.position[(*kept)[k]] != samples.position[before];
+  }
+  // A polygon of very uneven sides, or a small loop from a node back to it, would collapse to a
+  // line to and fro or to a point.
+  if (!whole) {
     kept->clear();
     for (uint32_t k = 0; k < n; ++k) kept->push_reserved(samples.closed ? (start + k) % n : k);
   }
@@ -129,11 +135,29 @@ Curve Curves::operator[](size_t curve) const {
           node.span().part(first, count)};
 }
 
+// Grows all arrays by half at least, so that many short curves cost linear time.
+static Status make_room(size_t size, Curves* curves) {
+  if (size <= curves->room) return {};
+  const size_t more = curves->room + curves->room / 2;
+  const size_t room = size > more ? size : more;
+  TRY(curves->knot.reserve(room));
+  TRY(curves->arc.reserve(room));
+  TRY(curves->position.reserve(room));
+  TRY(curves->position_moment.reserve(room));
+  TRY(curves->normal.reserve(room));
+  TRY(curves->normal_moment.reserve(room));
+  TRY(curves->sample.reserve(room));
+  TRY(curves->node.reserve(room));
+  curves->room = room;
+  return {};
+}
+
 // Room for `count` more knots, not yet filled.
 static Status extend(size_t count, Curves* curves) {
   const size_t size = curves->knot.size() + count;
   if (size >= k_none) return fail(Code::too_large, "too many samples for 32-bit indices");
   if (curves->start.empty()) TRY(curves->start.push(0));
+  TRY(make_room(size, curves));
   TRY(curves->knot.resize(size));
   TRY(curves->arc.resize(size));
   TRY(curves->position.resize(size));
@@ -196,7 +220,11 @@ CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s)
     t = inside < whole ? parameter_of_arc(curve.position, low, inside, whole)
                        : curve.position.knot[low + 1];
   }
-  return {spline_value(curve.position, low, t), unit(spline_value(curve.normal, low, t))};
+  // Of normals that nearly cancel out rounding leaves some direction, which means nothing.
+  constexpr double k_least_normal = 1e-3;
+  const Vec3 normal = spline_value(curve.normal, low, t);
+  const bool cancels = !(dot(normal, normal) > k_least_normal * k_least_normal);
+  return {spline_value(curve.position, low, t), cancels ? Vec3{} : unit(normal)};
 }
 
 Vec3 tangent_at_knot(const Curve& curve, uint32_t knot) {

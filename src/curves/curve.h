@@ -34,6 +34,7 @@ struct Curves {
   Array<double> knot, arc;
   Array<Vec3> position, position_moment, normal, normal_moment;
   Array<uint32_t> sample, node;
+  size_t room = 0;  // knots that fit without growing
 
   explicit Curves(Context& context)
       : start(context),

@@ -49,27 +49,26 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
   if (triangles.size() >= k_none) return fail(Code::too_large, "too many triangles");
   TRY(check_indices(vertices, triangles));
   Context& context = twins->context();
-  Array<uint32_t> start(context), corner(context);
+  Array<uint32_t> start(context), corner(context), leaving_to(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(twins->assign(triangles.size(), k_none));
+  TRY(leaving_to.assign(vertices, k_none));  // of each vertex: the half-edge to it from this one
+  TRY(twins->resize(triangles.size()));
   const auto head = [&](uint32_t h) { return triangles[next_half_edge(h)]; };
   for (uint32_t v = 0; v < vertices; ++v) {
     const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
-    for (size_t i = 0; i < leaving.size(); ++i) {
-      const uint32_t h = leaving[i], to = head(h);
-      for (size_t j = 0; j < i; ++j) {
-        if (head(leaving[j]) == to) {
-          return fail_triangle(
-              "an edge of the triangle belongs to another one in the same direction", h / 3);
-        }
+    for (uint32_t h : leaving) {
+      if (leaving_to[head(h)] != k_none) {
+        return fail_triangle("an edge of the triangle belongs to another one in the same direction",
+                             h / 3);
       }
-      if (to < v) continue;  // found from the other end
-      for (uint32_t k = start[to]; k < start[to + 1]; ++k) {
-        if (head(corner[k]) != v) continue;
-        (*twins)[h] = corner[k];
-        (*twins)[corner[k]] = h;
-      }
+      leaving_to[head(h)] = h;
     }
+    // Every half-edge arrives at one vertex, in the triangle of one that leaves there.
+    for (uint32_t h : leaving) {
+      const uint32_t arriving = previous_half_edge(h);
+      (*twins)[arriving] = leaving_to[triangles[arriving]];
+    }
+    for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
     if (v % 65536 == 65535) TRY(context.checkpoint());
   }
   return {};
@@ -98,9 +97,8 @@ static void find_components(Span<const uint32_t> triangles, Topology* topology) 
 
 // Walks round every vertex from one of its corners (at a border vertex: from the border) and
 // compares the number of triangles met with those it has.
-static Status check_fans(Span<const uint32_t> triangles, Span<const uint32_t> twins,
-                         Span<const uint32_t> start, Span<const uint32_t> corner,
-                         Span<uint8_t> on_border) {
+static Status check_fans(Span<const uint32_t> twins, Span<const uint32_t> start,
+                         Span<const uint32_t> corner, Span<uint8_t> on_border) {
   for (size_t v = 0; v + 1 < start.size(); ++v) {
     const uint32_t count = start[v + 1] - start[v];
     if (count == 0) return fail_vertex("the vertex belongs to no triangle", v);
@@ -120,7 +118,6 @@ static Status check_fans(Span<const uint32_t> triangles, Span<const uint32_t> tw
     }
     on_border[v] = borders == 1;
   }
-  (void)triangles;
   return {};
 }
 
@@ -147,7 +144,7 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(topology->on_border.assign(vertices, 0));
   TRY(topology->component.resize(vertices));
-  TRY(check_fans(triangles, twins, start.span(), corner.span(), topology->on_border.span()));
+  TRY(check_fans(twins, start.span(), corner.span(), topology->on_border.span()));
   find_components(triangles, topology);
   TRY(count_loops(twins, context, &topology->boundary_loops));
   for (uint32_t h = 0; h < twins.size(); ++h) topology->edges += twins[h] == k_none || h < twins[h];

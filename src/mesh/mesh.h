@@ -3,7 +3,7 @@
 //
 // Triangles are three vertex indices, counter-clockwise from outside. Half-edge 3 t + k runs from
 // corner k of triangle t to corner k + 1. Its twin is the half-edge that runs the other way, k_none
-// on an open border. O(vertices + triangles) while valences are bounded.
+// on an open border. Everything is O(vertices + triangles), whatever the valences.
 #pragma once
 
 #include "base/array.h"

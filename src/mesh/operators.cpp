@@ -1,5 +1,7 @@
 #include "mesh/operators.h"
 
+#include "base/sort.h"
+
 namespace wireskin::mesh {
 
 // From the dot products of the edge vectors at each corner and twice the area.
@@ -8,7 +10,7 @@ static TriangleShape shape_from(double dot_a, double dot_b, double dot_c, double
   return {{dot_a * inverse, dot_b * inverse, dot_c * inverse}, 0.5 * twice_area};
 }
 
-TriangleShape triangle_shape(Vec2 a, Vec2 b, Vec2 c) {
+TriangleShape triangle_shape(const Vec2& a, const Vec2& b, const Vec2& c) {
   return shape_from(dot(b - a, c - a), dot(c - b, a - b), dot(a - c, b - c), cross(b - a, c - a));
 }
 
@@ -53,43 +55,32 @@ void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShap
 
 namespace {
 
-// One column of the matrix while it is being gathered: its entries in the order in which the
-// triangles bring them, and where the entry of each row stands.
+// One column of the matrix while it is being gathered: its rows, in the order in which the
+// triangles bring them, wait in the matrix; their sums stand in a dense array.
 struct ColumnUnderWay {
-  Array<uint32_t> slot;  // per row: position in this column, k_none elsewhere
-  uint32_t first = 0;
+  Array<uint32_t> met;  // of each row: the last column that had it
+  Array<double> sum;    // of each row
 
-  explicit ColumnUnderWay(Context& context) : slot(context) {}
+  explicit ColumnUnderWay(Context& context) : met(context), sum(context) {}
 };
 
 }  // namespace
 
-static void add_to_column(ColumnUnderWay* column, uint32_t row, double value, sparse::Csc* matrix) {
-  uint32_t& slot = column->slot[row];
-  if (slot == k_none) {
-    slot = static_cast<uint32_t>(matrix->row.size());
+static void add_to_column(uint32_t v, uint32_t row, double value, ColumnUnderWay* column,
+                          sparse::Csc* matrix) {
+  if (column->met[row] != v) {
+    column->met[row] = v;
+    column->sum[row] = 0.0;
     matrix->row.push_reserved(row);
-    matrix->value.push_reserved(0.0);
   }
-  matrix->value[slot] += value;
+  column->sum[row] += value;
 }
 
-// Sorts the column by row (it is short) and forgets its slots.
-static void close_column(ColumnUnderWay* column, sparse::Csc* matrix) {
-  const size_t first = column->first, end = matrix->row.size();
-  for (size_t i = first; i < end; ++i) column->slot[matrix->row[i]] = k_none;
-  for (size_t i = first + 1; i < end; ++i) {
-    const uint32_t row = matrix->row[i];
-    const double value = matrix->value[i];
-    size_t hole = i;
-    for (; hole > first && matrix->row[hole - 1] > row; --hole) {
-      matrix->row[hole] = matrix->row[hole - 1];
-      matrix->value[hole] = matrix->value[hole - 1];
-    }
-    matrix->row[hole] = row;
-    matrix->value[hole] = value;
-  }
-  column->first = static_cast<uint32_t>(end);
+static void close_column(uint32_t v, const ColumnUnderWay& column, sparse::Csc* matrix) {
+  const size_t first = matrix->start[v];
+  const Span<uint32_t> rows = matrix->row.span().part(first, matrix->row.size() - first);
+  sort(rows, [](uint32_t a, uint32_t b) { return a < b; });
+  for (uint32_t row : rows) matrix->value.push_reserved(column.sum[row]);
 }
 
 Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
@@ -98,7 +89,8 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   Array<uint32_t> start(context), corner(context);
   ColumnUnderWay column(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(column.slot.assign(vertices, k_none));
+  TRY(column.met.assign(vertices, k_none));
+  TRY(column.sum.resize(vertices));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
   // A column has its diagonal and at most two entries a triangle.
@@ -110,17 +102,17 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   laplacian->value.clear();
   for (uint32_t v = 0; v < vertices; ++v) {
     laplacian->start[v] = static_cast<uint32_t>(laplacian->row.size());
-    add_to_column(&column, v, 0.0, laplacian);
+    add_to_column(v, v, 0.0, &column, laplacian);
     for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
       const uint32_t h = corner[k], next = next_half_edge(h), previous = previous_half_edge(h);
       const TriangleShape& shape = shapes[h / 3];
       const double to_next = 0.5 * shape.cotangent[previous % 3];
       const double to_previous = 0.5 * shape.cotangent[next % 3];
-      add_to_column(&column, triangles[next], to_next, laplacian);
-      add_to_column(&column, triangles[previous], to_previous, laplacian);
-      add_to_column(&column, v, -to_next - to_previous, laplacian);
+      add_to_column(v, triangles[next], to_next, &column, laplacian);
+      add_to_column(v, triangles[previous], to_previous, &column, laplacian);
+      add_to_column(v, v, -to_next - to_previous, &column, laplacian);
     }
-    close_column(&column, laplacian);
+    close_column(v, column, laplacian);
     if (v % 16384 == 16383) TRY(context.checkpoint());
   }
   laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());

@@ -19,7 +19,7 @@ struct TriangleShape {
   double area;
 };
 
-TriangleShape triangle_shape(Vec2 a, Vec2 b, Vec2 c);
+TriangleShape triangle_shape(const Vec2& a, const Vec2& b, const Vec2& c);
 TriangleShape triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c);
 
 Status triangle_shapes(Span<const Vec3> positions, Span<const uint32_t> triangles,

@@ -35,7 +35,7 @@ Status Enclosure::find_components(const Network& network, const CurveVertices& v
 }
 
 // Whether a ray from p to the right crosses the polygon an odd number of times.
-static bool inside(Span<const Vec2> polygon, Vec2 p) {
+static bool inside(Span<const Vec2> polygon, const Vec2& p) {
   bool odd = false;
   for (size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
     const Vec2 a = polygon[i], b = polygon[j];
@@ -60,7 +60,8 @@ Status Enclosure::check(const CurveVertices& vertices, Span<const uint32_t> bord
     bool enclosed = c != own;
     for (uint32_t k = start_[c]; enclosed && k < start_[c + 1]; ++k) {
       const Vec3& p = vertices.position[member_[k]];
-      enclosed = std::fabs(plane.height(p)) <= reach && inside(polygon, plane.project(p));
+      const Vec2 q = plane.project(p);
+      enclosed = length(q) <= widest && std::fabs(plane.height(p)) <= reach && inside(polygon, q);
     }
     if (!enclosed) continue;
     Place place;

@@ -175,6 +175,7 @@ static Status link_half_segments(const Graph& graph, Span<uint32_t> next) {
       const size_t clockwise = i == 0 ? round.size() - 1 : i - 1;
       next[opposite(round[i].half_segment)] = round[clockwise].half_segment;
     }
+    if (node % 4096 == 4095) TRY(context.checkpoint());
   }
   return {};
 }

@@ -34,7 +34,9 @@ struct Network {
 
   explicit Network(Context& context)
       : segment(context), patch_start(context), half_segment(context) {}
-  uint32_t patches() const { return static_cast<uint32_t>(patch_start.size() - 1); }
+  uint32_t patches() const {
+    return patch_start.empty() ? 0 : static_cast<uint32_t>(patch_start.size() - 1);
+  }
   Span<const uint32_t> cycle(uint32_t patch) const {
     return half_segment.span().part(patch_start[patch],
                                     patch_start[patch + 1] - patch_start[patch]);

@@ -38,10 +38,15 @@ struct PatchScratch {
 
 }  // namespace
 
-static Status at_patch(Status status, uint32_t patch) {
-  if (!status.ok() && status.code != Code::cancelled && status.code != Code::out_of_memory &&
-      status.code != Code::memory_cap) {
-    status.place.patch = patch;
+// Adds the place to what went wrong with a patch: its number and a curve of its border.
+static Status at_patch(Status status, const Network& network, uint32_t patch) {
+  const bool geometric = status.code == Code::patch_without_plane ||
+                         status.code == Code::patch_folded ||
+                         status.code == Code::patch_several_loops;
+  if (!geometric) return status;
+  status.place.patch = patch;
+  if (status.place.curve == k_none) {
+    status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
   }
   return status;
 }
@@ -116,19 +121,31 @@ static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
   return mesh->patch.push(mesh->patch[h / 3]);
 }
 
-static Status split_chord(const Chord& chord, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  const uint32_t middle = mesh->vertices++;
-  const uint32_t halves = static_cast<uint32_t>(mesh->triangle.size());
-  const uint32_t own_end = 3 * builder->patch_start[chord.patch + 1];
-  const uint32_t first_split = 3 * builder->patch_start[builder->patch_start.size() - 1];
-  for (uint32_t h = 3 * builder->patch_start[chord.patch]; h < halves; ++h) {
-    if (h == own_end && h < first_split) h = first_split;  // skip the other patches
-    const uint32_t a = mesh->triangle[h], b = mesh->triangle[mesh::next_half_edge(h)];
+// Splits the triangles [first, end) of the chord's patch that have the chord.
+static Status split_triangles(const Chord& chord, uint32_t first, uint32_t end, uint32_t middle,
+                              Builder* builder) {
+  const PatchMesh& mesh = *builder->mesh;
+  for (uint32_t h = 3 * first; h < 3 * end; ++h) {
+    const uint32_t a = mesh.triangle[h], b = mesh.triangle[mesh::next_half_edge(h)];
     const bool here = (a == chord.a && b == chord.b) || (a == chord.b && b == chord.a);
-    if (here && mesh->patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, builder));
+    if (here && mesh.patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, builder));
   }
   return {};
+}
+
+// A patch's triangles are those it began with and some of those that came from earlier splits.
+static Status split_chord(const Chord& chord, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  if (mesh->triangle.size() > 0x7fffffff) {
+    return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  const uint32_t middle = mesh->vertices++;
+  const uint32_t* own = &builder->patch_start[chord.patch];
+  const uint32_t first_split = builder->patch_start.back();
+  const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
+  TRY(split_triangles(chord, own[0], own[1], middle, builder));
+  TRY(split_triangles(chord, first_split, triangles, middle, builder));
+  return mesh->triangle.context().checkpoint();
 }
 
 // Splits every chord that stands in two patches or beside a curve's edge.
@@ -165,7 +182,7 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, Patch
   mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    TRY(at_patch(mesh_patch(network, vertices, enclosure, p, &scratch, &builder), p));
+    TRY(at_patch(mesh_patch(network, vertices, enclosure, p, &scratch, &builder), network, p));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));

@@ -30,9 +30,14 @@ Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Pla
   }
   plane->origin = positions;
   plane->normal = unit(normals);
-  Vec3 axis = reject(vertices.position[border[0]] - positions, plane->normal);
-  if (!(dot(axis, axis) > 0.0)) axis = reject({1, 0, 0}, plane->normal);
-  if (!(dot(axis, axis) > 0.0)) axis = reject({0, 1, 0}, plane->normal);
+  // What is left of a vector nearly along the normal is rounding and may point anywhere.
+  constexpr double k_least_sine = 1e-3;
+  const Vec3 first = vertices.position[border[0]] - positions;
+  Vec3 axis = reject(first, plane->normal);
+  if (!(dot(axis, axis) > k_least_sine * k_least_sine * dot(first, first))) {
+    const bool along_x = std::fabs(plane->normal.x) > 0.8;
+    axis = reject(along_x ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, plane->normal);
+  }
   plane->u = unit(axis);
   plane->v = cross(plane->normal, plane->u);
   return {};

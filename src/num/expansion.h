@@ -1,9 +1,10 @@
-// Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum, difference,
-// scaling and product, of a size fixed at compile time and wholly on the stack.
+// Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum,
+// difference, scaling and product, of a size fixed at compile time and wholly on the stack.
 //
-// Invariants: the parts are non-zero, do not overlap and grow in magnitude, so the last one carries
-// the sign; no part at all is zero. Exact while no product over- or underflows (see predicates.h for
-// the range). Splitting is Dekker's, not fused multiply-add, so every target computes the same parts.
+// Invariants: the parts are non-zero, do not overlap and grow in magnitude, so the last one
+// carries the sign; no part at all is zero. Exact while no product over- or underflows (see
+// predicates.h for the range). Splitting is Dekker's, not fused multiply-add, so every target
+// computes the same parts.
 // Cost: sum m + n, scale m, product m n operations on the parts that are really there.
 // Source: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
 // Predicates", 1997; T. J. Dekker, "A Floating-Point Technique for Extending the Available

@@ -1,9 +1,9 @@
 // The two questions on which planar triangulation rests, answered exactly: on which side of a line
 // does a point lie, and is it inside a circle.
 //
-// A result's sign is always right; its magnitude is an approximation. Holds for coordinates that are
-// zero or between k_least_coordinate and k_greatest_coordinate in magnitude: then no product of four
-// differences over- or underflows, in the filter or in the exact stage.
+// A result's sign is always right; its magnitude is an approximation. Holds for coordinates that
+// are zero or between k_least_coordinate and k_greatest_coordinate in magnitude: then no product
+// of four differences over- or underflows, in the filter or in the exact stage.
 // Cost: a few nanoseconds where the rounding error cannot reach the sign, which the filter proves;
 // else (points on one line or circle to about 1e-16) the same determinant in expansion arithmetic.
 // Source: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
@@ -25,7 +25,7 @@ struct Filtered {
   bool certain;
 };
 
-inline Filtered orient2d_filter(Vec2 a, Vec2 b, Vec2 c) {
+inline Filtered orient2d_filter(const Vec2& a, const Vec2& b, const Vec2& c) {
   constexpr double k_bound = (3.0 + 0x1p-49) * 0x1p-53;
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
@@ -33,7 +33,7 @@ inline Filtered orient2d_filter(Vec2 a, Vec2 b, Vec2 c) {
   return {det, std::fabs(det) >= k_bound * (std::fabs(left) + std::fabs(right))};
 }
 
-inline Filtered incircle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+inline Filtered incircle_filter(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   constexpr double k_bound = (10.0 + 0x1.8p-47) * 0x1p-53;
   const Vec2 ad = a - d;
   const Vec2 bd = b - d;
@@ -51,21 +51,26 @@ inline Filtered incircle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return {det, std::fabs(det) > k_bound * permanent};
 }
 
-double orient2d_exact(Vec2 a, Vec2 b, Vec2 c);
-double incircle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+// The stages behind the filters. incircle_wide computes in pairs of doubles, for the many
+// quadruples that lie on one circle but for the rounding of their coordinates.
+double orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c);
+Filtered incircle_wide(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
+double incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 // Positive where a, b, c turn counter-clockwise, zero where they lie on one line. About twice the
 // signed area of the triangle.
-inline double orient2d(Vec2 a, Vec2 b, Vec2 c) {
+inline double orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Filtered filtered = orient2d_filter(a, b, c);
   return filtered.certain ? filtered.value : orient2d_exact(a, b, c);
 }
 
 // Positive where d lies inside the circle through a, b, c (given counter-clockwise; the sign turns
 // with their order), zero where the four lie on one circle or line.
-inline double incircle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+inline double incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Filtered filtered = incircle_filter(a, b, c, d);
-  return filtered.certain ? filtered.value : incircle_exact(a, b, c, d);
+  if (filtered.certain) return filtered.value;
+  const Filtered wide = incircle_wide(a, b, c, d);
+  return wide.certain ? wide.value : incircle_exact(a, b, c, d);
 }
 
 }  // namespace wireskin

@@ -1,10 +1,12 @@
 #include "planar/constrained_delaunay.h"
 
+#include "num/minmax.h"
 #include "num/predicates.h"
 
 namespace wireskin::planar {
 
-static constexpr uint32_t k_paired = 0x80000000u;  // CavityEdge::beyond: the partner's place follows
+static constexpr uint32_t k_paired =
+    0x80000000u;  // CavityEdge::beyond: the partner's place follows
 
 static Status touching() {
   return fail(Code::patch_folded, "a vertex of the border lies on another of its edges");
@@ -37,11 +39,11 @@ Status begin_box(Span<const Vec2> points, Triangulation* t) {
   for (const Vec2& p : points) {
     low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y};
     high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y};
-    reach = std::fmax(reach, std::fmax(std::fabs(p.x), std::fabs(p.y)));
+    reach = larger(reach, larger(std::fabs(p.x), std::fabs(p.y)));
   }
   // Wide enough that subtracting it changes every coordinate, even those of a single point.
-  double margin = std::fmax(high.x - low.x, high.y - low.y);
-  margin = std::fmax(margin, std::fmax(0x1p-40 * reach, k_least_coordinate));
+  double margin = larger(high.x - low.x, high.y - low.y);
+  margin = larger(margin, larger(0x1p-40 * reach, k_least_coordinate));
   TRY(t->points.reserve(points.size() + k_box_corners));
   TRY(t->leaving.resize(k_box_corners));
   TRY(t->triangles.resize(2));
@@ -66,7 +68,8 @@ static uint32_t throw_dice(Triangulation* t) {
 
 // Where p lies in or on the triangle; `hidden` with the edge beyond which it lies otherwise. Edge
 // `entry` has p on the inner side.
-static Location place_in_triangle(Triangulation* t, Vec2 p, uint32_t triangle, uint32_t entry) {
+static Location place_in_triangle(Triangulation* t, const Vec2& p, uint32_t triangle,
+                                  uint32_t entry) {
   uint32_t zero[3];
   int zeros = 0;
   const uint32_t turn = throw_dice(t);
@@ -84,7 +87,7 @@ static Location place_in_triangle(Triangulation* t, Vec2 p, uint32_t triangle, u
   return {Where::on_vertex, Triangulation::next(zero[0]) == zero[1] ? zero[1] : zero[0]};
 }
 
-Location locate(Triangulation* t, Vec2 p, uint32_t triangle, bool stop_at_constraints) {
+Location locate(Triangulation* t, const Vec2& p, uint32_t triangle, bool stop_at_constraints) {
   uint32_t entry = k_none;
   const size_t most_steps = 4 * t->triangles.size() + 64;
   for (size_t step = 0; step < most_steps; ++step) {
@@ -105,15 +108,15 @@ Location locate(Triangulation* t, Vec2 p, uint32_t triangle, bool stop_at_constr
   return {Where::hidden, entry};
 }
 
-static bool in_circumcircle(const Triangulation& t, uint32_t triangle, Vec2 p) {
+static bool in_circumcircle(const Triangulation& t, uint32_t triangle, const Vec2& p) {
   const uint32_t* v = t.triangles[triangle].vertex;
   return incircle(t.points[v[0]], t.points[v[1]], t.points[v[2]], p) > 0.0;
 }
 
-// The triangles whose circumcircle holds p form a tree across their common edges, because p sees all
-// of them and none of their edges twice. Walking it depth first, counter-clockwise, gives the outline
-// in order.
-Status collect_cavity(Triangulation* t, Vec2 p, uint32_t triangle) {
+// The triangles whose circumcircle holds p form a tree across their common edges, because p sees
+// all of them and none of their edges twice. Walking it depth first, counter-clockwise, gives the
+// outline in order.
+Status collect_cavity(Triangulation* t, const Vec2& p, uint32_t triangle) {
   t->outline.clear();
   t->cavity.clear();
   t->stack.clear();
@@ -134,7 +137,7 @@ Status collect_cavity(Triangulation* t, Vec2 p, uint32_t triangle) {
   return {};
 }
 
-Status fill_cavity(Triangulation* t, Vec2 p) {
+Status fill_cavity(Triangulation* t, const Vec2& p) {
   const size_t count = t->outline.size();
   WIRESKIN_ASSERT(count == t->cavity.size() + 2);
   if (t->points.size() >= k_most_vertices) {
@@ -161,7 +164,7 @@ Status fill_cavity(Triangulation* t, Vec2 p) {
   return {};
 }
 
-Status insert_point(Triangulation* t, Vec2 p) {
+Status insert_point(Triangulation* t, const Vec2& p) {
   const Location location = locate(t, p, t->hint, false);
   if (location.where == Where::on_vertex) {
     return fail(Code::patch_folded, "two points of the border coincide");
@@ -175,7 +178,7 @@ Status insert_point(Triangulation* t, Vec2 p) {
 }
 
 // Is u, a point on the line through a and b, on b's side of a?
-static bool is_ahead(Vec2 a, Vec2 b, Vec2 u) {
+static bool is_ahead(const Vec2& a, const Vec2& b, const Vec2& u) {
   if (b.x != a.x) return (b.x > a.x) == (u.x > a.x);
   return (b.y > a.y) == (u.y > a.y);
 }
@@ -205,8 +208,8 @@ static Status first_crossing(const Triangulation& t, uint32_t a, uint32_t b, uin
 }
 
 // Walks along a-b from its first crossing edge. Collects the crossed triangles in t->cavity and in
-// t->chain the edges of both sides: first those on the left from a to b, then those on the right from
-// b to a; `beyond` is for now the edge itself.
+// t->chain the edges of both sides: first those on the left from a to b, then those on the right
+// from b to a; `beyond` is for now the edge itself.
 static Status collect_corridor(Triangulation* t, uint32_t a, uint32_t b, uint32_t crossing,
                                size_t* left_count) {
   const Vec2 pa = t->points[a];
@@ -235,8 +238,8 @@ static Status collect_corridor(Triangulation* t, uint32_t a, uint32_t b, uint32_
   return {};
 }
 
-// Replaces each chain edge by what lies beyond it. An edge that hangs into the corridor has the chain
-// on both sides; there, the two places in the chain refer to each other.
+// Replaces each chain edge by what lies beyond it. An edge that hangs into the corridor has the
+// chain on both sides; there, the two places in the chain refer to each other.
 static void look_beyond(Triangulation* t, Span<CavityEdge> chain) {
   for (uint32_t i = 0; i < chain.size(); ++i) t->triangles[chain[i].beyond >> 2].mark = i;
   for (CavityEdge& edge : chain) edge.constrained = t->constrained(edge.beyond) ? 1u : 0u;
@@ -258,7 +261,8 @@ static void look_beyond(Triangulation* t, Span<CavityEdge> chain) {
 static void attach(Triangulation* t, Span<CavityEdge> chain, uint32_t place, uint32_t h) {
   const CavityEdge edge = chain[place];
   if (edge.beyond != k_none && (edge.beyond & k_paired) != 0) {
-    chain[edge.beyond & ~k_paired].beyond = h;  // the partner, when its turn comes, will link the two
+    chain[edge.beyond & ~k_paired].beyond =
+        h;  // the partner, when its turn comes, will link the two
   } else {
     link(t, h, edge.beyond);
   }
@@ -266,8 +270,8 @@ static void attach(Triangulation* t, Span<CavityEdge> chain, uint32_t place, uin
 }
 
 // The vertex between places first and last of the chain whose circle with both holds no other.
-static uint32_t delaunay_apex(const Triangulation& t, Span<const CavityEdge> chain, uint32_t closing,
-                              uint32_t first, uint32_t last) {
+static uint32_t delaunay_apex(const Triangulation& t, Span<const CavityEdge> chain,
+                              uint32_t closing, uint32_t first, uint32_t last) {
   const Vec2 a = t.points[chain[first].vertex];
   const Vec2 b = t.points[last < chain.size() ? chain[last].vertex : closing];
   uint32_t best = first + 1;
@@ -300,7 +304,8 @@ static ChainRange pop_range(Triangulation* t) {
 // `closing`, in the slots that `*slot` runs through. Returns the half-edge along the segment. Every
 // chain vertex sees the segment, so the triangle on it that is empty of chain vertices is Delaunay,
 // and the same holds for the two regions that it leaves. t->stack has room for it all.
-static uint32_t fill_side(Triangulation* t, Span<CavityEdge> chain, uint32_t closing, size_t* slot) {
+static uint32_t fill_side(Triangulation* t, Span<CavityEdge> chain, uint32_t closing,
+                          size_t* slot) {
   const uint32_t count = static_cast<uint32_t>(chain.size());
   uint32_t base = k_none;
   t->stack.clear();
@@ -316,8 +321,10 @@ static uint32_t fill_side(Triangulation* t, Span<CavityEdge> chain, uint32_t clo
     const uint32_t triangle = t->cavity[(*slot)++];
     const uint32_t end = last < count ? chain[last].vertex : closing;
     set_triangle(t, triangle, chain[first].vertex, end, chain[apex].vertex);
-    if (parent == k_none) base = 4 * triangle;
-    else link(t, 4 * triangle, parent);
+    if (parent == k_none)
+      base = 4 * triangle;
+    else
+      link(t, 4 * triangle, parent);
     push_range(t, first, apex, 4 * triangle + 2);
     push_range(t, apex, last, 4 * triangle + 1);
   }
@@ -384,7 +391,8 @@ Status mark_outside(Triangulation* t) {
     t->stack.pop();
     for (uint32_t h = 4 * triangle; h < 4 * triangle + 3; ++h) {
       const uint32_t g = t->twin(h);
-      if (g == k_none || t->constrained(h) || (t->triangles[g >> 2].flags & k_outside) != 0) continue;
+      if (g == k_none || t->constrained(h) || (t->triangles[g >> 2].flags & k_outside) != 0)
+        continue;
       t->triangles[g >> 2].flags |= k_outside;
       t->stack.push_reserved(g >> 2);
     }

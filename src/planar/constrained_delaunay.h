@@ -1,11 +1,11 @@
 // A constrained Delaunay triangulation that grows: points and constraint edges are added one at a
 // time, and after each call every triangle's circumcircle is empty of the points visible from it.
 //
-// The triangulated region is a box wider than all points, so there is no special case at a hull; its
-// corners are the vertices 0 to 3. A constraint that would cross another one or touch a point, and a
-// point on a constraint, are refused with patch_folded and leave the triangulation as it was; after
-// any other failure it is of no more use. All decisions are exact. Edges are named by half-edges: 4 * triangle + corner, from that corner to the
-// next one counter-clockwise.
+// The triangulated region is a box wider than all points, so there is no special case at a hull;
+// its corners are the vertices 0 to 3. A constraint that would cross another one or touch a point,
+// and a point on a constraint, are refused with patch_folded and leave the triangulation as it
+// was; after any other failure it is of no more use. All decisions are exact. Edges are named by
+// half-edges: 4 * triangle + corner, from that corner to the next one counter-clockwise.
 // Cost: a point costs its walk and its cavity, both O(1) on average for points in the order of
 // insertion_order.h; a constraint costs at most the square of the number of triangles it crosses.
 // Sources: A. Bowyer, "Computing Dirichlet Tessellations", 1981, D. F. Watson, "Computing the
@@ -33,7 +33,8 @@ struct Triangle {
   uint32_t mark;       // scratch of recover_edge
 };
 
-// One edge of a cavity's outline, as seen from inside: the vertex it starts from and what lies beyond.
+// One edge of a cavity's outline, as seen from inside: the vertex it starts from and what lies
+// beyond.
 struct CavityEdge {
   uint32_t vertex;
   uint32_t beyond;
@@ -42,8 +43,13 @@ struct CavityEdge {
 
 struct Triangulation {
   explicit Triangulation(Context& context)
-      : points(context), triangles(context), leaving(context), outline(context), cavity(context),
-        stack(context), chain(context) {}
+      : points(context),
+        triangles(context),
+        leaving(context),
+        outline(context),
+        cavity(context),
+        stack(context),
+        chain(context) {}
 
   Array<Vec2> points;
   Array<Triangle> triangles;
@@ -51,7 +57,8 @@ struct Triangulation {
   uint32_t hint = 0;        // a triangle near the last change, where walks begin
   uint32_t dice = 1;        // keeps walks from running in circles, the same in every run
 
-  // Scratch: the outline and triangles of the present cavity, a stack, the two sides of a constraint.
+  // Scratch: the outline and triangles of the present cavity, a stack, the two sides of a
+  // constraint.
   Array<CavityEdge> outline;
   Array<uint32_t> cavity;
   Array<uint32_t> stack;
@@ -83,16 +90,16 @@ Status begin_box(Span<const Vec2> points, Triangulation* t);
 
 // Finds p by walking from `triangle`. With stop_at_constraints, walks only through what the first
 // triangle can reach without crossing a constraint, and may report a reachable point as hidden.
-Location locate(Triangulation* t, Vec2 p, uint32_t triangle, bool stop_at_constraints);
+Location locate(Triangulation* t, const Vec2& p, uint32_t triangle, bool stop_at_constraints);
 
 // Collects in t->cavity and t->outline the triangles that p would replace, without changing any.
-Status collect_cavity(Triangulation* t, Vec2 p, uint32_t triangle);
+Status collect_cavity(Triangulation* t, const Vec2& p, uint32_t triangle);
 
 // Replaces the collected cavity by the triangles round the new vertex p, which share one vertex.
-Status fill_cavity(Triangulation* t, Vec2 p);
+Status fill_cavity(Triangulation* t, const Vec2& p);
 
 // Adds p as the next vertex.
-Status insert_point(Triangulation* t, Vec2 p);
+Status insert_point(Triangulation* t, const Vec2& p);
 
 // Makes the segment between vertices a and b an edge and a constraint. Neither is a box corner.
 Status recover_edge(Triangulation* t, uint32_t a, uint32_t b);

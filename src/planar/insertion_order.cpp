@@ -1,6 +1,7 @@
 #include "planar/insertion_order.h"
 
 #include "base/sort.h"
+#include "num/minmax.h"
 
 namespace wireskin::planar {
 
@@ -9,7 +10,7 @@ struct OrderKey {
   uint32_t index;
 };
 
-static constexpr int k_hilbert_bits = 28;
+static constexpr int k_hilbert_bits = 20;
 
 // The place of the cell (x, y) along the Hilbert curve through 2^bits x 2^bits cells.
 static uint64_t hilbert_place(uint32_t x, uint32_t y) {
@@ -32,15 +33,15 @@ static uint64_t hilbert_place(uint32_t x, uint32_t y) {
   return place;
 }
 
-// Half of the points belong to the last round, a quarter to the one before, and so on, by lot: the
-// lot is drawn from the index, with the mixing of S. Vigna's splitmix64 (2015).
+// Three quarters of the points belong to the last round, three quarters of the rest to the one
+// before, and so on, by lot: drawn from the index, with the mixing of S. Vigna's splitmix64 (2015).
 static uint64_t insertion_round(uint32_t index, uint64_t last_round) {
   uint64_t z = (index + 1ull) * 0x9e3779b97f4a7c15ull;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
   z ^= z >> 31;
   uint64_t round = last_round;
-  for (; round > 0 && (z & 1) != 0; z >>= 1) --round;
+  for (; round > 0 && (z & 3) == 0; z >>= 2) --round;
   return round;
 }
 
@@ -56,12 +57,13 @@ Status insertion_order(Span<const Vec2> points, Array<uint32_t>* order) {
     low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y};
     high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y};
   }
-  const double extent = std::fmax(high.x - low.x, high.y - low.y);
+  const double extent = larger(high.x - low.x, high.y - low.y);
   const double cells = static_cast<double>((1u << k_hilbert_bits) - 1);
   const double step = extent > 0.0 ? cells / extent : 0.0;
-  // The first round should hold a few hundred points at most; more rounds would only lengthen walks.
+  // The first round should hold a few hundred points at most; more rounds would only lengthen
+  // walks.
   uint64_t last_round = 0;
-  for (size_t rest = count; rest > 256; rest >>= 1) ++last_round;
+  for (size_t rest = count; rest > 256; rest >>= 2) ++last_round;
   for (uint32_t i = 0; i < count; ++i) {
     const Vec2 cell = step * (points[i] - low);
     const uint64_t place =

@@ -1,14 +1,18 @@
 #include "planar/lattice.h"
 
 #include "base/sort.h"
+#include "num/minmax.h"
 #include "planar/refine.h"
 
 namespace wireskin::planar {
 
-// Distance between the border and the lattice in spacings. Below the height of a row, 0.866, so that
-// a lattice that fits the border continues it.
+// Distance between the border and the lattice in spacings. Below the height of a row, 0.866, so
+// that a lattice that fits the border continues it.
 static constexpr double k_clearance = 0.8;
 static constexpr double k_row_height = 0.8660254037844386;
+
+// Farther from the origin than this many spacings, x + 1 would soon be x.
+static constexpr double k_greatest_reach = 0x1p+40;
 
 // A border edge in the lattice's frame (unit: one spacing), with the distance that points keep.
 struct ClearedEdge {
@@ -30,14 +34,20 @@ struct LatticeFrame {
   Vec2 origin, axis;
   double spacing;
 
-  Vec2 enter(Vec2 p) const {
+  Vec2 enter(const Vec2& p) const {
     const Vec2 d = p - origin;
     return (1.0 / spacing) * Vec2{dot(axis, d), cross(axis, d)};
   }
-  Vec2 leave(Vec2 p) const {
+  Vec2 leave(const Vec2& p) const {
     return origin + spacing * (p.x * axis + p.y * Vec2{-axis.y, axis.x});
   }
 };
+
+// The greatest integer not above x, for |x| < 2^62.
+static double round_down(double x) {
+  const double whole = static_cast<double>(static_cast<int64_t>(x));
+  return whole > x ? whole - 1.0 : whole;
+}
 
 static LatticeFrame frame_of(Span<const Vec2> border, double spacing) {
   LatticeFrame frame = {border[0], {1.0, 0.0}, spacing};
@@ -53,27 +63,28 @@ static LatticeFrame frame_of(Span<const Vec2> border, double spacing) {
   return frame;
 }
 
-static ClearedEdge clear_edge(const LatticeFrame& frame, Vec2 a, Vec2 b, uint32_t index) {
+static ClearedEdge clear_edge(const LatticeFrame& frame, const Vec2& a, const Vec2& b,
+                              uint32_t index) {
   ClearedEdge edge = {frame.enter(a), frame.enter(b), 0.0, 0.0, 0.0, index};
   edge.radius = k_clearance + std::fabs(length(edge.b - edge.a) - 1.0) / k_size_gradient;
-  edge.low = std::fmin(edge.a.y, edge.b.y) - edge.radius;
-  edge.high = std::fmax(edge.a.y, edge.b.y) + edge.radius;
+  edge.low = smaller(edge.a.y, edge.b.y) - edge.radius;
+  edge.high = larger(edge.a.y, edge.b.y) + edge.radius;
   return edge;
 }
 
-static void widen_by_disc(Vec2 centre, double radius, double y, ClearedPart* part) {
+static void widen_by_disc(const Vec2& centre, double radius, double y, ClearedPart* part) {
   const double half2 = radius * radius - (y - centre.y) * (y - centre.y);
   if (half2 < 0.0) return;
   const double half = std::sqrt(half2);
-  part->from = std::fmin(part->from, centre.x - half);
-  part->to = std::fmax(part->to, centre.x + half);
+  part->from = smaller(part->from, centre.x - half);
+  part->to = larger(part->to, centre.x + half);
 }
 
-static void widen_by_segment(Vec2 a, Vec2 b, double y, ClearedPart* part) {
+static void widen_by_segment(const Vec2& a, const Vec2& b, double y, ClearedPart* part) {
   if ((a.y <= y) == (b.y <= y)) return;
   const double x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-  part->from = std::fmin(part->from, x);
-  part->to = std::fmax(part->to, x);
+  part->from = smaller(part->from, x);
+  part->to = larger(part->to, x);
 }
 
 // The points within the radius of the edge are two discs and a strip; all of it is convex.
@@ -97,16 +108,16 @@ static Status fill_row(const LatticeFrame& frame, double row, Span<ClearedPart> 
   sort(parts, [](const ClearedPart& p, const ClearedPart& q) {
     return p.from != q.from ? p.from < q.from : p.index < q.index;
   });
-  const double shift = 0.5 * (row - 2.0 * std::floor(0.5 * row));
+  const double shift = 0.5 * (row - 2.0 * round_down(0.5 * row));
   double reach = -DBL_MAX;
   bool inside = false;
   for (const ClearedPart& part : parts) {
     if (inside && part.from > reach) {
-      for (double x = std::floor(reach - shift) + 1.0 + shift; x < part.from; x += 1.0) {
+      for (double x = round_down(reach - shift) + 1.0 + shift; x < part.from; x += 1.0) {
         TRY(points->push(frame.leave({x, k_row_height * row})));
       }
     }
-    reach = std::fmax(reach, part.to);
+    reach = larger(reach, part.to);
     inside = inside != part.crosses;
   }
   return {};
@@ -125,15 +136,18 @@ Status lattice_points(Span<const Vec2> border, double spacing, double expected,
   points->clear();
   double low = DBL_MAX;
   double high = -DBL_MAX;
+  double reach = 0.0;
   for (uint32_t i = 0; i < count; ++i) {
     edges.push_reserved(clear_edge(frame, border[i], border[i + 1 < count ? i + 1 : 0], i));
-    low = std::fmin(low, edges[i].a.y);
-    high = std::fmax(high, edges[i].a.y);
+    low = smaller(low, edges[i].a.y);
+    high = larger(high, edges[i].a.y);
+    reach = larger(reach, larger(std::fabs(edges[i].a.x), std::fabs(edges[i].a.y)));
   }
+  if (!(reach < k_greatest_reach)) return {};
   double work = (high - low) / k_row_height;
   for (ClearedEdge& edge : edges) {
-    edge.low = std::fmax(edge.low, low);
-    edge.high = std::fmin(edge.high, high);
+    edge.low = larger(edge.low, low);
+    edge.high = smaller(edge.high, high);
     work += (edge.high - edge.low) / k_row_height;
   }
   if (!(work < 16.0 * expected + 64.0 * count)) return {};
@@ -141,7 +155,7 @@ Status lattice_points(Span<const Vec2> border, double spacing, double expected,
     return p.low != q.low ? p.low < q.low : p.index < q.index;
   });
   size_t coming = 0;
-  for (double row = std::ceil(low / k_row_height); row * k_row_height < high; row += 1.0) {
+  for (double row = round_down(low / k_row_height); row * k_row_height < high; row += 1.0) {
     const double y = row * k_row_height;
     for (; coming < count && edges[coming].low <= y; ++coming) {
       active.push_reserved(static_cast<uint32_t>(coming));

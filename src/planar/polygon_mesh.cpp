@@ -1,5 +1,6 @@
 #include "planar/polygon_mesh.h"
 
+#include "num/minmax.h"
 #include "num/predicates.h"
 #include "planar/constrained_delaunay.h"
 #include "planar/insertion_order.h"
@@ -9,13 +10,13 @@
 
 namespace wireskin::planar {
 
-static constexpr int k_relaxing_sweeps = 4;
+static constexpr int k_relaxing_sweeps = 6;
 
 static Status check_coordinates(Span<const Vec2> border, double* greatest) {
   *greatest = 0.0;
   for (const Vec2& p : border) {
     if (p.x != p.x || p.y != p.y) return fail(Code::not_a_number, "a coordinate is not a number");
-    *greatest = std::fmax(*greatest, std::fmax(std::fabs(p.x), std::fabs(p.y)));
+    *greatest = larger(*greatest, larger(std::fabs(p.x), std::fabs(p.y)));
   }
   if (*greatest > DBL_MAX) return fail(Code::infinite, "a coordinate is infinite");
   if (*greatest > 0.25 * k_greatest_coordinate) {
@@ -26,10 +27,12 @@ static Status check_coordinates(Span<const Vec2> border, double* greatest) {
 
 // Numbers too small for exact products, next to the others, become zero: a change by 1e-30 of the
 // polygon's extent, and only in the working copy.
-static double flush(double value, double least) { return std::fabs(value) < least ? 0.0 : value; }
+static double flush(double value, double least) {
+  return std::fabs(value) < least ? 0.0 : value;
+}
 
 static Status copy_border(Span<const Vec2> border, double greatest, Array<Vec2>* points) {
-  const double least = std::fmax(0x1p-100 * greatest, k_least_coordinate);
+  const double least = larger(0x1p-100 * greatest, k_least_coordinate);
   TRY(points->reserve(border.size()));
   for (const Vec2& p : border) points->push_reserved({flush(p.x, least), flush(p.y, least)});
   return {};
@@ -87,7 +90,8 @@ static Status insert_border(Span<const Vec2> border, Triangulation* t) {
   return t->leaving.copy(leaving.span());
 }
 
-// Is a simple polygon counter-clockwise? At its leftmost point (the lowest of those), it turns left.
+// Is a simple polygon counter-clockwise? At its leftmost point (the lowest of those), it turns
+// left.
 static bool turns_left(Span<const Vec2> border) {
   size_t corner = 0;
   for (size_t i = 1; i < border.size(); ++i) {

@@ -1,9 +1,12 @@
 #include "planar/refine.h"
 
+#include "num/minmax.h"
+
 namespace wireskin::planar {
 
 // A triangle is too large when its circumradius exceeds that of an equilateral one of the wished
-// size this many times. Chosen so that about as many points result as a hexagonal lattice would have.
+// size this many times. Chosen so that about as many points result as a hexagonal lattice would
+// have.
 static constexpr double k_coarseness = 1.25;
 // The least distance between a new point and any vertex that it will be joined with, over its size.
 static constexpr double k_least_distance = 0.7;
@@ -76,17 +79,16 @@ static bool propose(const Refiner& r, uint32_t h, Proposal* proposal) {
   const double centre = 0.5 * dot(a - c, b - c) / area2;
   if (!(centre > 0.0)) return false;
   const double size = 0.5 * ((*r.sizes)[t.start(h)] + (*r.sizes)[t.end(h)]);
-  double wished = drift(size, r.spacing, 0.875 * size);
   const double apex_size = (*r.sizes)[t.apex(h)];
-  if (apex_size < r.spacing) {
-    const double reached = drift(apex_size, r.spacing, length(c - 0.5 * (a + b)));
-    if (reached < wished) wished = reached;
-  }
+  const double most =
+      apex_size < r.spacing ? drift(apex_size, r.spacing, length(c - 0.5 * (a + b))) : DBL_MAX;
+  // 0.875 is about the height of an equilateral triangle.
+  const double wished = smaller(drift(size, r.spacing, 0.875 * size), most);
   const double ideal2 = wished * wished / squared - 0.25;
   const double ideal = ideal2 > 0.25 ? std::sqrt(ideal2) : 0.5;
-  const double height = ideal < centre ? ideal : centre;
+  const double height = smaller(ideal, centre);
   proposal->point = 0.5 * (a + b) + height * Vec2{-ab.y, ab.x};
-  proposal->size = wished;
+  proposal->size = smaller(drift(size, r.spacing, height * std::sqrt(squared)), most);
   return true;
 }
 
@@ -119,7 +121,8 @@ static Status advance_front(Refiner* r) {
       continue;
     }
     const uint32_t h = 4 * triangle;
-    if (is_front(t, h) || is_front(t, h + 1) || is_front(t, h + 2)) TRY(queue_triangle(r, triangle));
+    if (is_front(t, h) || is_front(t, h + 1) || is_front(t, h + 2))
+      TRY(queue_triangle(r, triangle));
   }
   return {};
 }
@@ -178,7 +181,8 @@ static Status refine_triangle(Refiner* r, uint32_t triangle) {
 Status refine(Triangulation* t, Array<double>* sizes, double spacing, size_t most_vertices) {
   Refiner r = {t, sizes, spacing, Array<uint32_t>(t->triangles.context())};
   for (uint32_t i = 0; i < t->triangles.size(); ++i) {
-    if ((t->triangles[i].flags & k_outside) == 0 && is_coarse(r, i)) t->triangles[i].flags |= k_coarse;
+    if ((t->triangles[i].flags & k_outside) == 0 && is_coarse(r, i))
+      t->triangles[i].flags |= k_coarse;
   }
   for (uint32_t i = 0; i < t->triangles.size(); ++i) {
     if ((t->triangles[i].flags & k_coarse) == 0) continue;

@@ -1,11 +1,12 @@
-// Fills the inside of a triangulated polygon with points, front by front from the border: a triangle
-// that is too large gets a point at the ideal place above one of its edges that is finished, limited
-// to that edge's Voronoi edge, so no other visible vertex is nearer to the point than the edge's ends.
+// Fills the inside of a triangulated polygon with points, front by front from the border: a
+// triangle that is too large gets a point at the ideal place above one of its edges that is
+// finished, limited to that edge's Voronoi edge, so no other visible vertex is nearer to the point
+// than the edge's ends.
 //
-// In: a triangulation with closed constraints and its outside marked; `sizes`, the wished edge length
-// at each vertex. Out: more vertices, each with its size, which drifts from that of the border to
-// `spacing` by at most k_size_gradient times the distance. Constraints are never split; a point too
-// near to one is left out. Ends after at most `most_vertices`.
+// In: a triangulation with closed constraints and its outside marked; `sizes`, the wished edge
+// length at each vertex. Out: more vertices, each with its size, which drifts from that of the
+// border to `spacing` by k_size_gradient times the length of each step inward. Constraints are
+// never split; a point too near to one is left out. Ends after at most `most_vertices`.
 // Cost: O(1) a point on average, a queue entry a triangle.
 // Source: S. Rebay, "Efficient Unstructured Mesh Generation by Means of Delaunay Triangulation and
 // Bowyer-Watson Algorithm", 1993; L. P. Chew, "Guaranteed-Quality Mesh Generation for Curved

@@ -1,26 +1,29 @@
 #include "planar/relax.h"
 
+#include "num/minmax.h"
 #include "num/predicates.h"
 
 namespace wireskin::planar {
 
 // Squared sine of the angle that a move may not fall below even if others gain: 40 degrees.
 static constexpr double k_good_sine2 = 0.41317591116653485;
+// Steps shorter than this part of the size are not worth their flips.
+static constexpr double k_least_step = 0.01;
 
-// Squared sine of the least angle. It lies opposite the shortest side, and its sine is twice the area
-// over the product of the other two.
-static double least_sine2(Vec2 a, Vec2 b, Vec2 c) {
+// Squared sine of the least angle. It lies opposite the shortest side, and its sine is twice the
+// area over the product of the other two.
+static double least_sine2(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double ab = dot(b - a, b - a);
   const double bc = dot(c - b, c - b);
   const double ca = dot(a - c, a - c);
-  const double shortest = std::fmin(ab, std::fmin(bc, ca));
+  const double shortest = smaller(ab, smaller(bc, ca));
   const double area2 = cross(b - a, c - a);
   return area2 * area2 * shortest / (ab * bc * ca);
 }
 
 // The least of that in the triangles round a vertex if it were at p; 0 if one of them did not turn
 // left. `h` leaves the vertex.
-static double star_quality(const Triangulation& t, uint32_t h, Vec2 p) {
+static double star_quality(const Triangulation& t, uint32_t h, const Vec2& p) {
   double least = 1.0;
   uint32_t spoke = h;
   do {
@@ -52,21 +55,6 @@ static Vec2 wished_place(const Triangulation& t, Span<const double> sizes, uint3
   return (1.0 / count) * sum;
 }
 
-static void move_vertex(Triangulation* t, Span<const double> sizes, uint32_t vertex) {
-  const uint32_t h = t->leaving[vertex];
-  const Vec2 p = t->points[vertex];
-  const double before = star_quality(*t, h, p);
-  const double needed = before < k_good_sine2 ? before : k_good_sine2;
-  const Vec2 step = wished_place(*t, sizes, h) - p;
-  for (double part = 1.0; part > 0.25; part *= 0.5) {
-    const Vec2 moved = p + part * step;
-    if (star_quality(*t, h, moved) > needed) {
-      t->points[vertex] = moved;
-      return;
-    }
-  }
-}
-
 static bool should_flip(const Triangulation& t, uint32_t h) {
   const uint32_t g = t.twin(h);
   if (g == k_none || t.constrained(h)) return false;
@@ -74,26 +62,61 @@ static bool should_flip(const Triangulation& t, uint32_t h) {
                   t.points[t.apex(g)]) > 0.0;
 }
 
-// Every edge once, and after a flip the four round it again. A half-edge on the stack may have become
-// another edge meanwhile; looking at it does no harm, and the edge that it was is there as well.
+static Status push_star(Triangulation* t, uint32_t h) {
+  uint32_t spoke = h;
+  do {
+    TRY(t->stack.push(spoke));
+    TRY(t->stack.push(Triangulation::next(spoke)));
+    spoke = t->turn(spoke);
+  } while (spoke != h);
+  return {};
+}
+
+// Checks the edges on the stack, and after a flip the four round it. A half-edge on the stack may
+// have become another edge meanwhile; looking at it does no harm, and the edge that it was is there
+// as well.
 static Status restore_delaunay(Triangulation* t) {
-  t->stack.clear();
-  for (uint32_t i = 0; i < t->triangles.size(); ++i) {
-    if ((t->triangles[i].flags & k_outside) != 0) continue;
-    for (uint32_t h = 4 * i; h < 4 * i + 3; ++h) {
-      if (t->twin(h) > h) TRY(t->stack.push(h));
-      while (!t->stack.empty()) {
-        const uint32_t edge = t->stack.back();
-        t->stack.pop();
-        if (!should_flip(*t, edge)) continue;
-        const uint32_t g = t->twin(edge);
-        flip(t, edge);
-        TRY(t->stack.push(edge));
-        TRY(t->stack.push(Triangulation::previous(edge)));
-        TRY(t->stack.push(g));
-        TRY(t->stack.push(Triangulation::previous(g)));
-      }
-    }
+  while (!t->stack.empty()) {
+    const uint32_t h = t->stack.back();
+    t->stack.pop();
+    if (!should_flip(*t, h)) continue;
+    const uint32_t g = t->twin(h);
+    flip(t, h);
+    TRY(t->stack.push(h));
+    TRY(t->stack.push(Triangulation::previous(h)));
+    TRY(t->stack.push(g));
+    TRY(t->stack.push(Triangulation::previous(g)));
+  }
+  return {};
+}
+
+static void wake_star(const Triangulation& t, uint32_t h, Span<uint8_t> awake) {
+  awake[t.start(h)] = 1;
+  uint32_t spoke = h;
+  do {
+    awake[t.end(spoke)] = 1;
+    spoke = t.turn(spoke);
+  } while (spoke != h);
+}
+
+// Moves one vertex all the way or half of it, and goes to sleep if it hardly wants to move.
+static Status relax_vertex(Triangulation* t, Span<const double> sizes, Span<uint8_t> awake,
+                           uint32_t vertex) {
+  const uint32_t h = t->leaving[vertex];
+  const Vec2 p = t->points[vertex];
+  const Vec2 step = wished_place(*t, sizes, h) - p;
+  const double least = k_least_step * sizes[vertex];
+  awake[vertex] = 0;
+  if (!(dot(step, step) > least * least)) return {};
+  const double before = star_quality(*t, h, p);
+  const double needed = before < k_good_sine2 ? before : k_good_sine2;
+  for (double part = 1.0; part > 0.25; part *= 0.5) {
+    const Vec2 moved = p + part * step;
+    if (!(star_quality(*t, h, moved) > needed)) continue;
+    t->points[vertex] = moved;
+    wake_star(*t, h, awake);
+    TRY(push_star(t, h));
+    return restore_delaunay(t);
   }
   return {};
 }
@@ -101,12 +124,14 @@ static Status restore_delaunay(Triangulation* t) {
 Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, int sweeps) {
   Context& context = t->points.context();
   const uint32_t count = static_cast<uint32_t>(t->points.size());
-  for (int sweep = 0; sweep < sweeps && first_free < count; ++sweep) {
+  Array<uint8_t> awake(context);
+  TRY(awake.assign(count, 1));
+  t->stack.clear();
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (uint32_t v = first_free; v < count; ++v) {
       if (v % 16384 == 0) TRY(context.checkpoint());
-      move_vertex(t, sizes, v);
+      if (awake[v] != 0) TRY(relax_vertex(t, sizes, awake.span(), v));
     }
-    TRY(restore_delaunay(t));
   }
   return {};
 }

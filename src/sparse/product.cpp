@@ -25,13 +25,22 @@ struct Factors {
 
 }  // namespace
 
+// Columns may be long, so the multiplications are counted instead of the columns.
+static Status pause_for_checkpoint(Context& context, size_t* work) {
+  constexpr size_t k_work_per_checkpoint = size_t{1} << 19;
+  if (*work < k_work_per_checkpoint) return {};
+  *work = 0;
+  return context.checkpoint();
+}
+
 // Gathers column `column` of B's numbering, which is unknown j, and leaves its rows unsorted.
 // Weights of zero are no reason to skip an entry: the pattern must not depend on values.
 static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
-                          Accumulator* gathered) {
+                          Accumulator* gathered, size_t* work) {
   gathered->rows.clear();
   for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
     const uint32_t inner = factors.b.row[q];
+    *work += factors.a.start[inner + 1] - factors.a.start[inner];
     const double scale = factors.weight[inner] * factors.b.value[q];
     for (uint32_t p = factors.a.start[inner]; p < factors.a.start[inner + 1]; ++p) {
       const uint32_t i = factors.unknown[factors.a.row[p]];
@@ -50,11 +59,13 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
 static Status count_columns(const Factors& factors, Span<uint32_t> mark, Csc* product) {
   uint64_t total = 0;
   uint32_t j = 0;
+  size_t work = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
     if (factors.unknown[column] == k_none) continue;
     product->start[j] = static_cast<uint32_t>(total);
     for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
       const uint32_t inner = factors.b.row[q];
+      work += factors.a.start[inner + 1] - factors.a.start[inner];
       for (uint32_t p = factors.a.start[inner]; p < factors.a.start[inner + 1]; ++p) {
         const uint32_t i = factors.unknown[factors.a.row[p]];
         if (i == k_none || mark[i] == j || (factors.part == Part::lower && i < j)) continue;
@@ -63,7 +74,8 @@ static Status count_columns(const Factors& factors, Span<uint32_t> mark, Csc* pr
       }
     }
     if (total >= k_none) return fail(Code::too_large, "the matrix is too large for 32-bit indices");
-    if (++j % 8192 == 0) TRY(product->start.context().checkpoint());
+    ++j;
+    TRY(pause_for_checkpoint(product->start.context(), &work));
   }
   product->start[j] = static_cast<uint32_t>(total);
   return {};
@@ -84,16 +96,18 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   TRY(product->row.resize(product->start[unknowns]));
   TRY(product->value.resize(product->start[unknowns]));
   uint32_t j = 0;
+  size_t work = 0;
   for (uint32_t column = 0; column < b.cols; ++column) {
     if (unknown[column] == k_none) continue;
-    gather_column(factors, column, j, &gathered);
+    gather_column(factors, column, j, &gathered, &work);
     sort(gathered.rows.span(), [](uint32_t x, uint32_t y) { return x < y; });
     const uint32_t first = product->start[j];
     for (uint32_t k = 0; k < gathered.rows.size(); ++k) {
       product->row[first + k] = gathered.rows[k];
       product->value[first + k] = gathered.sum[gathered.rows[k]];
     }
-    if (++j % 8192 == 0) TRY(context.checkpoint());
+    ++j;
+    TRY(pause_for_checkpoint(context, &work));
   }
   return {};
 }

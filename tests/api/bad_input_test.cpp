@@ -229,7 +229,8 @@ TEST_CASE("a border that crosses itself") {
 TEST_CASE("a patch whose normals cancel out") {
   Scene scene = flat_loop({1, 0, 0.7, 0.7, 0, 1, -0.7, 0.7, -1, 0, -0.7, -0.7, 0, -1, 0.7, -0.7});
   Curve& curve = scene.curves[0];
-  curve.normals = curve.positions;  // outwards in the plane
+  curve.normals = curve.positions;  // outwards in the plane, as on the equator of a sphere
+  curve.boundary = false;
   CHECK(watched_scene(scene).status == WSK_ERROR_PATCH_WITHOUT_PLANE);
 }
 

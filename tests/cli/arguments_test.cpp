@@ -24,7 +24,7 @@ static bool complains_of(const std::vector<std::string>& words, const char* what
 TEST_CASE("everything given") {
   const Arguments arguments =
       parse_arguments({"--spacing", "0.5", "in.net", "-o", "out.PLY", "--method=triharmonic",
-                       "--report=r.json", "--image", "i.png", "--quiet"});
+                       "--report=r.json", "--image", "i.png", "--quiet", "--up", "y"});
   CHECK(arguments.input == "in.net");
   CHECK(arguments.output == "out.PLY");
   CHECK(arguments.spacing == 0.5);
@@ -32,6 +32,7 @@ TEST_CASE("everything given") {
   CHECK(arguments.report == "r.json");
   CHECK(arguments.image == "i.png");
   CHECK(arguments.quiet);
+  CHECK(arguments.up_axis == 1);
 }
 
 TEST_CASE("defaults") {
@@ -41,6 +42,7 @@ TEST_CASE("defaults") {
   CHECK(arguments.report.empty());
   CHECK(arguments.image.empty());
   CHECK_FALSE(arguments.quiet);
+  CHECK(arguments.up_axis == 2);
 }
 
 TEST_CASE("each method by its name") {
@@ -74,6 +76,8 @@ TEST_CASE("wrong usage") {
   CHECK(complains_of({"a.net", "-o", "out.obj", "--image", "x.jpg"}, "must end in .png"));
   CHECK(complains_of({"a.net", "-o", "out.obj", "--method", "magic"},
                      "unknown method \"magic\", known are stanko, biharmonic"));
+  CHECK(complains_of({"a.net", "-o", "out.obj", "--up", "w"}, "--up needs x, y or z"));
+  CHECK(complains_of({"a.net", "-o", "out.obj", "--up", "xy"}, "--up needs x, y or z"));
   for (const char* spacing : {"0", "-1", "nan", "inf", "1cm", ""}) {
     CAPTURE(spacing);
     CHECK(complains_of({"a.net", "-o", "out.obj", "--spacing", spacing}, "--spacing needs"));

@@ -139,8 +139,9 @@ TEST_CASE("every method, every output format, --quiet") {
 TEST_CASE("the same command twice gives the same bytes") {
   const ScratchFolder folder("command");
   write_file(folder / "sphere.net", sphere_net(8));
-  REQUIRE(run(folder, "sphere.net -o a.ply --image a.png").status == 0);
-  REQUIRE(run(folder, "sphere.net -o b.ply --image b.png", "LC_ALL=de_DE.UTF-8 ").status == 0);
+  REQUIRE(run(folder, "sphere.net -o a.ply --image a.png --spacing 0.1").status == 0);
+  REQUIRE(run(folder, "sphere.net -o b.ply --image b.png --spacing 0.1", "LC_ALL=de_DE.UTF-8 ")
+              .status == 0);
   CHECK(read_file(folder / "a.ply") == read_file(folder / "b.ply"));
   CHECK(read_file(folder / "a.png") == read_file(folder / "b.png"));
 }

@@ -65,11 +65,16 @@ TEST_CASE("frames are right-handed, and look at the outer side of a sheet") {
   Square square;
   for (const double sign : {1.0, -1.0}) {
     if (sign < 0) square.triangles = {0, 2, 1, 0, 3, 2};
-    for (const Frame& frame : choose_frames(square.view())) {
-      const Vec3 c = cross(frame.right, frame.up);
-      CHECK(dot(c, frame.toward) == doctest::Approx(1.0));
-      CHECK(dot(frame.right, frame.up) == doctest::Approx(0.0));
-      CHECK(sign * frame.toward.z > 0.0);
+    for (const int up_axis : {0, 1, 2}) {
+      for (const Frame& frame : choose_frames(square.view(), up_axis)) {
+        const Vec3 c = cross(frame.right, frame.up);
+        CHECK(dot(c, frame.toward) == doctest::Approx(1.0));
+        CHECK(dot(frame.right, frame.up) == doctest::Approx(0.0));
+        CHECK(sign * frame.toward.z > 0.0);
+        // The square lies on the ground if z is up; otherwise it stands.
+        const double up[3] = {frame.up.x, frame.up.y, frame.up.z};
+        CHECK((up_axis == 2 ? sign : 1.0) * up[up_axis] > 0.0);
+      }
     }
   }
 }
@@ -86,7 +91,7 @@ TEST_CASE("a picture has a white border, stripes, and both kinds of curves") {
   Network network;
   network.curves.resize(2);
   network.curves[1].boundary = true;
-  const Image image = draw_picture(square.view(), network);
+  const Image image = draw_picture(square.view(), network, 2);
   REQUIRE(image.width == 1600);
   REQUIRE(image.height >= 500);
   REQUIRE(image.height <= 1200);
@@ -115,7 +120,7 @@ TEST_CASE("the picture does not depend on the size or the place of the surface")
   Network network;
   network.curves.resize(2);
   Square square;
-  const Image image = draw_picture(square.view(), network);
+  const Image image = draw_picture(square.view(), network, 2);
   for (double& x : square.positions) x *= 0x1p-300;
-  CHECK(draw_picture(square.view(), network).rgb == image.rgb);
+  CHECK(draw_picture(square.view(), network, 2).rgb == image.rgb);
 }

@@ -36,6 +36,8 @@ refuses(missing "includes \"b.h\", which src does not have" a.cpp "#include \"b.
 refuses(conditional "includes \"b.h\" under a condition"
         a.cpp "#ifdef X\n#include \"b.h\"\n#endif\n" b.h "\n")
 refuses(comment "slash and a star" a.cpp "// all of src/*.cpp\n")
+refuses(digits "write 1'000 without" a.cpp "int k = 1'000$\n")
+refuses(slashes "a string with two slashes" a.cpp "const char* k = \"a//b\"$\n")
 refuses(function "wireskin::x::help is defined in src/a.cpp and in src/b.cpp"
         a.cpp "namespace wireskin::x {\nstatic int help(int a) {}\n}  // namespace wireskin::x\n"
         b.cpp "namespace wireskin::x {\nstatic void\nhelp(int b,\n int c) {}\n}  // namespace wireskin::x\n")
@@ -55,12 +57,13 @@ file(WRITE ${WORK}/${name}/wireskin.h "int wsk[2];\n")
 file(WRITE ${WORK}/${name}/a/a.h "#pragma once\n#include <cstddef>\nnamespace wireskin { struct Later; }\n")
 set(body "namespace wireskin::a {\nstatic int f(int x) { return \"a;b\\\\[\"[x] + '\\\\'; }\nstatic int f() { return k[f(1)]; }\n}  // namespace wireskin::a")
 file(WRITE ${WORK}/${name}/a/a.cpp "#include \"a/a.h\"\n\n${body}\n")
-file(WRITE ${WORK}/${name}/b.cpp "#include \"a/a.h\"\nnamespace wireskin::b {\nstatic int f(int x) { return x; }\nstruct Later;\n}  // namespace wireskin::b\n")
+file(WRITE ${WORK}/${name}/b.cpp "#include \"a/a.h\"\nnamespace wireskin::b {\nstatic int f(int x) { return x; }\nstruct Later;\nint k(char); // it's \\\"\nint l = k('\\\"') + k(\"\\\"\"[0]);  // isn't\n}  // namespace wireskin::b\n")
 amalgamate(${name})
 if(NOT result EQUAL 0)
   message(SEND_ERROR "accepts: ${error}")
 endif()
 file(READ ${WORK}/${name}.h header)
+string(REPLACE "}  // namespace wireskin::a" "}  /* namespace wireskin::a */" body "${body}")
 string(FIND "${header}" "${body}" found)
 if(found LESS 0)
   message(SEND_ERROR "the text of a source did not come through unchanged")

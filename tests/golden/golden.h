@@ -13,7 +13,10 @@ struct Golden {
 };
 
 inline constexpr Golden k_golden[] = {
-    {"octants", WSK_METHOD_STANKO, 0x0u},      {"saddle", WSK_METHOD_STANKO, 0x0u},
-    {"band", WSK_METHOD_STANKO, 0x0u},         {"octants", WSK_METHOD_BIHARMONIC, 0x0u},
-    {"octants", WSK_METHOD_TRIHARMONIC, 0x0u}, {"octants", WSK_METHOD_CLAMPED, 0x0u},
+    {"octants", WSK_METHOD_STANKO, 0x90061480e7397662u},
+    {"saddle", WSK_METHOD_STANKO, 0x970020a608dc28f5u},
+    {"band", WSK_METHOD_STANKO, 0xca9b8ec3075f392cu},
+    {"octants", WSK_METHOD_BIHARMONIC, 0x436781bdc93ba967u},
+    {"octants", WSK_METHOD_TRIHARMONIC, 0x9a8f1579bd3503e0u},
+    {"octants", WSK_METHOD_CLAMPED, 0x7ae96e60f34d56c8u},
 };

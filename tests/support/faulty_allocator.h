@@ -1,5 +1,6 @@
 // An allocator for wsk_options that counts, checks sizes on release, fills fresh memory with a
-// pattern (so that a read of what was never written changes the result) and fails on demand.
+// pattern or with small numbers (so that a read of what was never written changes the result) and
+// fails on demand.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@ struct FaultyAllocator {
 
   size_t fail_at = k_never;     // zero-based number of the allocation that fails
   bool fail_from_then = false;  // and all after it
-  int pattern = 0xcd;
+  static constexpr int k_small_numbers = -1;
+  int pattern = 0xcd;  // every fresh byte, or k_small_numbers: stale indices and counters
 
   size_t calls = 0;
   size_t live_bytes = 0;
@@ -37,7 +39,7 @@ struct FaultyAllocator {
     char* block = static_cast<char*>(std::malloc(bytes + k_header));
     if (block == nullptr) return nullptr;
     std::memcpy(block, &bytes, sizeof bytes);
-    std::memset(block + k_header, self.pattern, bytes);
+    self.fill(block + k_header, bytes);
     self.live_bytes += bytes;
     ++self.live_blocks;
     if (self.live_bytes > self.peak_bytes) self.peak_bytes = self.live_bytes;
@@ -60,6 +62,18 @@ struct FaultyAllocator {
   }
 
  private:
+  void fill(char* memory, size_t bytes) {
+    if (pattern != k_small_numbers) {
+      std::memset(memory, pattern, bytes);
+      return;
+    }
+    for (size_t i = 0; i < bytes; ++i) {
+      random = 1664525 * random + 1013904223;
+      memory[i] = i % 4 == 0 ? static_cast<char>(random >> 25) : '\0';
+    }
+  }
+
+  uint32_t random = 1;
   static constexpr size_t k_header = 16;  // keeps the alignment of malloc
 };
 
