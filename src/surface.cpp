@@ -1,8 +1,11 @@
 #include "surface.h"
 
+#include "crease.h"
+#include "curves/sides.h"
 #include "mesh/curvature.h"
-#include "smooth/fair.h"
+#include "network/node_normals.h"
 #include "network/patch_mesh.h"
+#include "smooth/fair.h"
 
 namespace wireskin {
 
@@ -21,9 +24,25 @@ static curves::Samples samples_of(const CurveSet& set, Span<const uint32_t> node
           node.empty() ? node : node.part(first, count), set.closed[curve] != 0};
 }
 
+// The same with the normals on the right of a sharp curve.
+static curves::Samples right_samples_of(const CurveSet& set, uint32_t curve) {
+  curves::Samples samples = samples_of(set, {}, curve);
+  samples.normal = set.right.part(set.start[curve], samples.position.size());
+  return samples;
+}
+
 static Status at_curve(Status status, uint32_t curve) {
   if (!status.ok()) status.place.curve = curve;
   return status;
+}
+
+// What sharp curves need besides: the normals on their right, and those of their nodes.
+static Status fit_sides(const CurveSet& set, Span<network::Node> nodes, curves::Curves* fitted) {
+  for (uint32_t c = 0; c < set.sharp.size(); ++c) {
+    if (set.sharp[c]) TRY(at_curve(curves::check_samples(right_samples_of(set, c)), c));
+  }
+  TRY(curves::fit_right_normals({set.start, set.right, set.sharp}, fitted));
+  return network::complete_node_normals(*fitted, nodes);
 }
 
 // Checks every curve, unites the samples of each node and fits the splines.
@@ -35,13 +54,14 @@ static Status fit_curves(Context& context, const CurveSet& set, double size,
   for (uint32_t c = 0; c < counts->curves; ++c) {
     TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
   }
-  const network::SampleNumbers samples = {set.start, set.number, set.position, set.normal};
+  const network::SampleNumbers samples = {set.start,  set.number, set.position,
+                                          set.normal, set.sharp,  set.right};
   TRY(network::find_nodes(samples, k_node_tolerance * size, nodes, &node));
   counts->nodes = static_cast<uint32_t>(nodes->size());
   for (size_t i = 0; i < node.size(); ++i) {
     if (node[i] == k_none) continue;
     set.position[i] = (*nodes)[node[i]].position;
-    set.normal[i] = (*nodes)[node[i]].normal;
+    if (!(*nodes)[node[i]].crease) set.normal[i] = (*nodes)[node[i]].normal;
   }
   for (uint32_t c = 0; c < counts->curves; ++c) {
     // Neighbours that differed by less than the tolerance may have become one point.
@@ -49,7 +69,7 @@ static Status fit_curves(Context& context, const CurveSet& set, double size,
     TRY(at_curve(curves::add_curve(samples_of(set, node.span(), c), fitted), c));
     TRY(context.progress(static_cast<double>(c + 1) / counts->curves));
   }
-  return {};
+  return set.sharp.empty() ? Status{} : fit_sides(set, nodes->span(), fitted);
 }
 
 // The curves as resampled, edge by edge.
@@ -106,37 +126,67 @@ static Status in_terms_of_nodes(Status status, Span<const network::Node> nodes) 
   return status;
 }
 
+namespace {
+
+// What the methods work on: the mesh itself, or the one cut open along its creases.
+struct Workpiece {
+  Span<Vec3> position, normal;
+  Span<uint32_t> triangle;
+  Span<const uint8_t> held, on_border, bare;
+};
+
+}  // namespace
+
+static Status apply_method(Context& context, const network::PatchMesh& patches,
+                           const Workpiece& piece, smooth::Method method, Surface* surface) {
+  Counts* counts = &surface->counts;
+  if (method != smooth::Method::iterated && method != smooth::Method::fair) {
+    const smooth::Domain domain = {piece.triangle,  patches.shape.span(),   piece.held,
+                                   piece.on_border, smooth::Metric::planes, piece.bare};
+    return smooth::smooth(context, domain, method, {piece.position, piece.normal},
+                          &counts->residual);
+  }
+  smooth::FairReport report;
+  smooth::FairOptions options;
+  if (method == smooth::Method::iterated) options.displacement_steps = 0;
+  const smooth::FairMesh mesh = {piece.position,        piece.normal, piece.triangle,
+                                 surface->patch.span(), piece.held,   piece.on_border,
+                                 patches.shape.span(),  piece.bare};
+  TRY(smooth::fair(context, mesh, counts->patches, options, &report));
+  counts->factorisations = report.factorisations;
+  counts->iterations = report.iterations;
+  counts->residual = report.residual;
+  counts->guarded = report.guarded_patches;
+  counts->greatest_step = report.greatest_step;
+  return {};
+}
+
 static Status smooth_patches(Context& context, const network::PatchMesh& patches,
-                             Span<const network::Node> nodes, smooth::Method method,
+                             smooth::Method method, const mesh::Topology& topology,
                              Surface* surface) {
   const uint32_t n = patches.vertices;
-  mesh::Topology topology(context);
   Array<uint8_t> held(context);
   Array<Vec3> normal(context);
-  TRY(in_terms_of_nodes(count_topology(n, patches.triangle.span(), &topology, &surface->counts),
-                        nodes));
   TRY(held.resize(n));
   TRY(normal.copy(surface->constraint_normal.span()));
   for (uint32_t v = 0; v < n; ++v) held[v] = v < patches.curve_vertices;
-  const smooth::Domain domain = {patches.triangle.span(), patches.shape.span(), held.span(),
-                                 topology.on_border.span(), smooth::Metric::planes};
-  if (method == smooth::Method::iterated || method == smooth::Method::fair) {
-    smooth::FairReport report;
-    smooth::FairOptions options;
-    if (method == smooth::Method::iterated) options.displacement_steps = 0;
-    const smooth::FairMesh mesh = {surface->position.span(),  normal.span(),
-                                   surface->triangle.span(),  surface->patch.span(),
-                                   held.span(), topology.on_border.span(), patches.shape.span()};
-    TRY(smooth::fair(context, mesh, surface->counts.patches, options, &report));
-    surface->counts.factorisations=report.factorisations; surface->counts.iterations=report.iterations;
-    surface->counts.residual = report.residual;
-    surface->counts.guarded = report.guarded_patches;
-    surface->counts.greatest_step = report.greatest_step;
-    return measure(context, topology.on_border.span(), surface);
-  }
-  TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},
-                     &surface->counts.residual));
+  const Workpiece piece = {surface->position.span(),  normal.span(),
+                           surface->triangle.span(),  held.span(),
+                           topology.on_border.span(), {}};
+  TRY(apply_method(context, patches, piece, method, surface));
   return measure(context, topology.on_border.span(), surface);
+}
+
+static Status smooth_creased(Context& context, const network::PatchMesh& patches,
+                             smooth::Method method, const mesh::Topology& topology,
+                             Creased* creased, Surface* surface) {
+  const Workpiece piece = {creased->position.span(),     creased->normal.span(),
+                           creased->cut.triangle.span(), creased->held.span(),
+                           creased->on_border.span(),    creased->bare.span()};
+  TRY(apply_method(context, patches, piece, method, surface));
+  merge_creases(*creased, surface);
+  TRY(measure(context, topology.on_border.span(), surface));
+  return measure_sides(context, *creased, surface);
 }
 
 // Makes room for the free vertices behind those of the curves.
@@ -163,6 +213,7 @@ Status surface_curves(Context& context, const CurveSet& set, smooth::Method meth
   network::Network network(context);
   network::CurveVertices vertices(context);
   network::PatchMesh patches(context);
+  mesh::Topology topology(context);
 
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
@@ -180,7 +231,12 @@ Status surface_curves(Context& context, const CurveSet& set, smooth::Method meth
   TRY(network::mesh_patches(network, vertices, &patches));
   counts->free_vertices = patches.vertices - patches.curve_vertices;
   TRY(take_vertices(vertices, patches, surface));
-  return smooth_patches(context, patches, nodes.span(), method, surface);
+  TRY(in_terms_of_nodes(
+      count_topology(patches.vertices, patches.triangle.span(), &topology, counts), nodes.span()));
+  if (!has_creases(vertices)) return smooth_patches(context, patches, method, topology, surface);
+  Creased creased(context);
+  TRY(cut_along_creases(context, network, vertices, set.sharp, nodes.span(), *surface, &creased));
+  return smooth_creased(context, patches, method, topology, &creased, surface);
 }
 
 // Every component and every border must be held, or the surface would be free to float away.
@@ -251,11 +307,17 @@ Status surface_triangles(Context& context, const TriangleSet& set, smooth::Metho
     smooth::FairReport report;
     smooth::FairOptions options;
     if (method == smooth::Method::iterated) options.displacement_steps = 0;
-    const smooth::FairMesh mesh = {surface->position.span(),  normal.span(),
-                                   surface->triangle.span(),  surface->patch.span(),
-                                   set.held, topology.on_border.span(), {}};
+    const smooth::FairMesh mesh = {surface->position.span(),
+                                   normal.span(),
+                                   surface->triangle.span(),
+                                   surface->patch.span(),
+                                   set.held,
+                                   topology.on_border.span(),
+                                   {}};
     TRY(smooth::fair(context, mesh, 1, options, &report));
-    counts->residual = report.residual; counts->factorisations=report.factorisations; counts->iterations=report.iterations;
+    counts->residual = report.residual;
+    counts->factorisations = report.factorisations;
+    counts->iterations = report.iterations;
     return measure(context, topology.on_border.span(), surface);
   }
   TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},

@@ -21,6 +21,10 @@ struct CurveSet {
   Span<const uint32_t> number;   // the caller's node numbers, k_none for ordinary samples
   Span<const uint8_t> closed;    // of each curve
   Span<const uint8_t> boundary;  // of each curve
+  // Empty where no curve is sharp. A sharp curve's normals are those on its left, zero where they
+  // are not known; so are those on its right.
+  Span<const uint8_t> sharp = {};
+  Span<Vec3> right = {};
 };
 
 struct TriangleSet {
@@ -40,7 +44,7 @@ struct Counts {
   double residual = 0.0;
   uint32_t guarded = 0;
   double greatest_step = 0.0;
-  uint32_t factorisations=0, iterations=0;
+  uint32_t factorisations = 0, iterations = 0;
 };
 
 struct Surface {

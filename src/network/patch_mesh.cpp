@@ -2,6 +2,7 @@
 
 #include "base/sort.h"
 #include "network/enclosure.h"
+#include "network/side_normals.h"
 #include "planar/polygon_mesh.h"
 
 namespace wireskin::network {
@@ -30,10 +31,12 @@ struct Builder {
 // Memory for one patch, reused.
 struct PatchScratch {
   Array<uint32_t> border;
+  Array<Vec3> normal;  // of the patch along its border
   Array<Vec2> polygon;
   planar::PolygonMesh planar;
 
-  explicit PatchScratch(Context& context) : border(context), polygon(context), planar(context) {}
+  explicit PatchScratch(Context& context)
+      : border(context), normal(context), polygon(context), planar(context) {}
 };
 
 }  // namespace
@@ -93,7 +96,8 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
   Context& context = scratch->border.context();
   Plane plane;
   TRY(border_of_patch(network, vertices, patch, &scratch->border));
-  TRY(fit_plane(vertices, scratch->border.span(), &plane));
+  TRY(normals_of_border(network, vertices, patch, &scratch->normal));
+  TRY(fit_plane(vertices, scratch->border.span(), scratch->normal.span(), &plane));
   TRY(scratch->polygon.resize(scratch->border.size()));
   for (size_t i = 0; i < scratch->border.size(); ++i) {
     scratch->polygon[i] = plane.project(vertices.position[scratch->border[i]]);

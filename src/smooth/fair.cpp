@@ -54,7 +54,8 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
   TRY(mesh::care(context, {mesh.position, mesh.triangle, mesh.patch, mesh.held}, &flips));
   report->flips += flips;
   TRY(mesh::triangle_shapes(mesh.position, mesh.triangle, shapes));
-  const Domain domain = {mesh.triangle, shapes->span(), mesh.held, mesh.on_border, Metric::space};
+  const Domain domain = {mesh.triangle,  shapes->span(), mesh.held,
+                         mesh.on_border, Metric::space,  mesh.bare};
   return smooth(context, domain, Method::stanko, {mesh.position, mesh.normal}, &report->residual);
 }
 
@@ -129,8 +130,8 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
   report->flips += flips;
   TRY(direction.resize(n));
   TRY(step.resize(n));
-  const DisplaceInput input = {mesh.position, held_normal,    mesh.triangle,   mesh.patch,
-                               mesh.held,     mesh.on_border, smoothing_length};
+  const DisplaceInput input = {mesh.position, held_normal,    mesh.triangle,    mesh.patch,
+                               mesh.held,     mesh.on_border, smoothing_length, mesh.bare};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {

@@ -24,6 +24,7 @@ struct FairMesh {
   Span<const uint8_t> held;
   Span<const uint8_t> on_border;
   Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
+  Span<const uint8_t> bare = {};                // held, on a border, normal not known; empty: none
 };
 
 struct FairOptions {
