@@ -98,7 +98,7 @@ static double carried_cosine(const Vec3& normal, const Vec3& from, const Vec3& t
 // Gives every node its axis. Where the sense is known it is taken from the normal, and the normal
 // itself stays where it is complete or the axis tells something else.
 static void find_axes(Span<const Tips> tips, Span<Node> nodes, Span<Sense> sense) {
-  constexpr double k_agrees = 0.3;
+  constexpr double k_agrees = 0.05;
   for (size_t i = 0; i < nodes.size(); ++i) {
     const bool known = nodes[i].normal != Vec3{};
     sense[i] = known ? Sense::known : Sense::unknown;

@@ -38,8 +38,8 @@ static void merge_sides(const SampleNumbers& samples, Span<const uint32_t> membe
   if (!node->crease) return;
   // Sides that nearly cancel out have no mean that tells anything.
   constexpr double k_least_sum = 1e-3;
-  node->normal = unit(length(sharp) > k_least_sum ? sharp : smooth);
   if (!(length(sharp) > k_least_sum)) node->certain = false;
+  node->normal = unit(node->certain ? sharp : sharp + smooth);
 }
 
 // Makes one node of the samples that carry the same number.
