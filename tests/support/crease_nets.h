@@ -202,9 +202,7 @@ inline void add_circle(double radius, double z, uint32_t first, Rim rim, double 
                        int samples, Net* net) {
   for (uint32_t k = 0; k < 4; ++k) {
     const auto tilted = [=](double angle) {
-      return Field([=](double t) {
-        return round(std::cos(angle), std::sin(angle), k + t);
-      });
+      return Field([=](double t) { return round(std::cos(angle), std::sin(angle), k + t); });
     };
     const Field point = arc(radius, z, k, k + 1);
     const uint32_t a = first + k, b = first + (k + 1) % 4;
@@ -244,7 +242,12 @@ inline Net can(Rim rim, int samples) {
   const bool lids = rim != Rim::border;
   add_circle(1, -1, 0, rim, 0, -k_quarter, samples, &net);
   add_circle(1, 1, 4, rim, lids ? k_quarter : 0, 0, samples, &net);
-  add_meridians(0, 4, false, [](double t) { return P{1, 2 * t - 1, 0}; }, samples, &net);
+  add_meridians(
+      0, 4, false,
+      [](double t) {
+        return P{1, 2 * t - 1, 0};
+      },
+      samples, &net);
   return net;
 }
 
@@ -262,7 +265,12 @@ inline Net capped(double radius, Rim joint, int parts, int samples) {
   if (parts & 1) add_meridians(0, 8, true, cap, samples, &net);
   if (parts & 2) {
     add_circle(1, -1, 4, Rim::border, 0, 0, samples, &net);
-    add_meridians(4, 0, false, [](double t) { return P{1, t - 1, 0}; }, samples, &net);
+    add_meridians(
+        4, 0, false,
+        [](double t) {
+          return P{1, t - 1, 0};
+        },
+        samples, &net);
   }
   return net;
 }
@@ -317,13 +325,15 @@ inline Net fading(bool goes_on, bool with_normals, int samples) {
   } else {
     edge(0, 2, corner[0], corner[2]).boundary = true;
   }
-  for (uint32_t k = 2; k < 8; ++k) edge(k, (k + 1) % 8, corner[k], corner[(k + 1) % 8]).boundary = true;
+  for (uint32_t k = 2; k < 8; ++k)
+    edge(k, (k + 1) % 8, corner[k], corner[(k + 1) % 8]).boundary = true;
   edge(7, 8, corner[7], {0, 0, 0});
   edge(8, 3, {0, 0, 0}, corner[3]);
   const auto side = [=](double s) {
     return with_normals ? Field([=](double t) { return normal(0, t, s); }) : Field();
   };
-  net.add_sharp(samples, 8, 5, [=](double t) { return point(0, t); }, side(-1), side(1));
+  net.add_sharp(
+      samples, 8, 5, [=](double t) { return point(0, t); }, side(-1), side(1));
   return net;
 }
 

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "network/side_normals.h"
 #include "support/curve_nets.h"
 
 using namespace unit;
