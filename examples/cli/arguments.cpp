@@ -12,8 +12,8 @@ namespace wireskin_cli {
 namespace {
 
 // In the order of the numbers of wsk_method.
-constexpr const char* k_method_names[WSK_METHOD_COUNT] = {"stanko", "biharmonic", "triharmonic",
-                                                          "clamped"};
+constexpr const char* k_method_names[WSK_METHOD_COUNT] = {"stanko",  "biharmonic", "triharmonic",
+                                                          "clamped", "iterated",   "fair"};
 
 constexpr const char* k_help = R"(wireskin - a smooth surface through a network of curves
 
@@ -39,7 +39,9 @@ options:
   -o OUTPUT          where to write the surface
   --spacing LENGTH   distance of vertices along the curves, in the units of the input
                      (default: a hundredth of the diagonal of the bounding box)
-  --method NAME      stanko (default): mean curvature follows the normals
+  --method NAME      fair (default): mean curvature as smooth as can be, the normals kept
+                     stanko: mean curvature follows the normals spread from the curves
+                     iterated: the same, repeated on the surface itself
                      biharmonic, triharmonic: least square Laplacian, which lets the normals
                      order the curves but not shape the surface
                      clamped: biharmonic with curvature prescribed on the curves

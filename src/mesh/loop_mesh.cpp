@@ -57,40 +57,37 @@ static Status check_loop(Span<const Vec3> loop, double spacing) {
   return {};
 }
 
-// How much of the loop's shape vertex i stands for: a share of the length, of the turning of the
-// tangents and of the number of vertices, a third each.
-static double share_of(Span<const Vec3> loop, size_t i, double perimeter, double turning) {
-  const size_t n = loop.size();
-  const Vec3 out = loop[i + 1 < n ? i + 1 : 0] - loop[i];
-  const Vec3 in = loop[i] - loop[i > 0 ? i - 1 : n - 1];
-  const double turn = length(unit(out) - unit(in));
-  return length(out) / perimeter + (turning > 0.0 ? turn / turning : 0.0) +
-         1.0 / static_cast<double>(n);
+// How far the tangent turns at vertex i, 0 to 2.
+static double turn_at(Span<const Vec3> loop, size_t i) {
+  const Vec3 out = loop[i + 1 < loop.size() ? i + 1 : 0] - loop[i];
+  const Vec3 in = loop[i] - loop[i > 0 ? i - 1 : loop.size() - 1];
+  return length(unit(out) - unit(in));
 }
 
-// All vertices, or of a long loop those where the sum of the shares passes a multiple of its
-// k_most_kept-th part.
+// All vertices, or of a long loop those that share its shape evenly: a vertex stands for its edge,
+// its turn and itself, each measured against their sum over the loop, and one is kept wherever the
+// running total passes a multiple of its k_most_kept-th part.
 static Status keep_vertices(Kept* kept) {
   const Span<const Vec3> loop = kept->position;
   const uint32_t n = static_cast<uint32_t>(loop.size());
-  TRY(kept->vertex.reserve(n < k_most_kept ? n : k_most_kept + 1));
+  TRY(kept->vertex.reserve(n < k_most_kept ? n : k_most_kept));
   if (n <= k_most_kept) {
     for (uint32_t i = 0; i < n; ++i) kept->vertex.push_reserved(i);
     return {};
   }
   const double perimeter = perimeter_of(loop);
-  double turning = 0.0, total = 0.0, sum = 0.0;
-  // With a length of one and no other turning the share is the turn itself, plus known terms.
-  for (uint32_t i = 0; i < n; ++i) turning += share_of(loop, i, perimeter, 1.0);
-  turning -= 2.0;
-  for (uint32_t i = 0; i < n; ++i) total += share_of(loop, i, perimeter, turning);
+  double turning = DBL_MIN, sum = 0.0;
+  for (uint32_t i = 0; i < n; ++i) turning += turn_at(loop, i);
   uint32_t passed = 0;
   for (uint32_t i = 0; i < n && passed < k_most_kept; ++i) {
-    sum += share_of(loop, i, perimeter, turning);
-    const uint32_t now = static_cast<uint32_t>(k_most_kept * (sum / total));
+    sum += length(loop[i + 1 < n ? i + 1 : 0] - loop[i]) / perimeter + turn_at(loop, i) / turning +
+           1.0 / static_cast<double>(n);
+    const uint32_t now = static_cast<uint32_t>(k_most_kept * (sum / 3.0));
     if (now > passed) kept->vertex.push_reserved(i);
     passed = now;
   }
+  // One edge or turn may swallow many parts, but the vertices' own third remains.
+  WIRESKIN_ASSERT(kept->vertex.size() >= 3);
   return {};
 }
 
@@ -191,8 +188,8 @@ static double sound_area(Span<const Vec3> position, Span<const uint32_t> triangl
   return sum;
 }
 
-static Status triangulate_loop(Context& context, Span<const Vec3> position,
-                               Span<const Vec3> normal, Array<uint32_t>* triangle) {
+static Status triangulate_loop(Context& context, Span<const Vec3> position, Span<const Vec3> normal,
+                               Array<uint32_t>* triangle) {
   Kept kept(context);
   kept.position = position;
   kept.normal = normal;
@@ -208,7 +205,7 @@ Status mesh_loop(Context& context, Span<const Vec3> position, Span<const Vec3> n
   Array<uint32_t> triangle(context);
   TRY(point.copy(position));
   TRY(triangulate_loop(context, position, normal, &triangle));
-  TRY(refine_loop(context, spacing, &point, &triangle));
+  TRY(refine_loop(context, spacing, static_cast<uint32_t>(position.size()), &point, &triangle));
   const double perimeter = perimeter_of(position);
   if (!(sound_area(point.span(), triangle.span()) > k_no_area * perimeter * perimeter)) {
     return fail(Code::patch_folded, "the border of the patch encloses no area");

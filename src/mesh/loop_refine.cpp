@@ -1,0 +1,349 @@
+#include "mesh/loop_refine.h"
+
+#include "mesh/curvature.h"
+#include "num/minmax.h"
+
+namespace wireskin::mesh {
+
+static constexpr double k_grading = 0.25;
+// Edges above the first share of the wished size are split, unless the midpoint would come nearer
+// than the second share to an opposite vertex.
+static constexpr double k_long_edge = 1.35;
+static constexpr double k_close = 0.6;
+// Each level splits the edges above this share of the level before.
+static constexpr double k_level = 0.7;
+static constexpr int k_most_passes = 6;
+static constexpr int k_relaxing_sweeps_of_level = 2;
+static constexpr int k_last_relaxing_sweeps = 4;
+static constexpr int k_umbrella_sweeps = 2;
+
+namespace {
+
+struct LoopRefinement {
+  uint32_t rim;
+  double spacing;
+  size_t most_points = 0;
+  Array<Vec3>* position;
+  Array<uint32_t>* triangle;
+  Array<double> size;  // wished, of each point
+  Array<uint32_t> twins;
+  Array<uint32_t> suspect;  // half-edges that may have to be flipped
+
+  LoopRefinement(Context& context, uint32_t rim_vertices, double wished, Array<Vec3>* points,
+                 Array<uint32_t>* triangles)
+      : rim(rim_vertices),
+        spacing(wished),
+        position(points),
+        triangle(triangles),
+        size(context),
+        twins(context),
+        suspect(context) {}
+
+  uint32_t origin(uint32_t h) const { return (*triangle)[h]; }
+  uint32_t head(uint32_t h) const { return (*triangle)[next_half_edge(h)]; }
+  uint32_t apex(uint32_t h) const { return (*triangle)[previous_half_edge(h)]; }
+  const Vec3& at(uint32_t v) const { return (*position)[v]; }
+};
+
+// The two triangles at a half-edge from a to b; c and d are opposite to it.
+struct Diamond {
+  uint32_t a, b, c, d;
+};
+
+// The triangles round each point, for relaxation.
+struct Stars {
+  Array<uint32_t> start, corner;
+  Array<Vec3> normal;
+
+  explicit Stars(Context& context) : start(context), corner(context), normal(context) {}
+};
+
+}  // namespace
+
+static Diamond diamond_at(const LoopRefinement& r, uint32_t h) {
+  const uint32_t g = r.twins[h];
+  return {r.origin(h), r.origin(g), r.apex(h), r.apex(g)};
+}
+
+// The cotangent of a triangle's least angle; beyond all others without area. The same bits
+// whichever corner comes first, or rounding could make two needles take turns for ever.
+static double greatest_cotangent(const LoopRefinement& r, uint32_t i, uint32_t j, uint32_t k) {
+  while (i > j || i > k) {
+    const uint32_t first = i;
+    i = j;
+    j = k;
+    k = first;
+  }
+  const Vec3 &a = r.at(i), &b = r.at(j), &c = r.at(k);
+  const double at_a = dot(b - a, c - a), at_b = dot(c - b, a - b), at_c = dot(a - c, b - c);
+  const double twice_area = length(cross(b - a, c - a));
+  return twice_area > 0.0 ? larger(at_a, larger(at_b, at_c)) / twice_area : DBL_MAX;
+}
+
+// Walks round the origin of a half-edge, both ways because the rim may end the walk.
+static bool joined(const LoopRefinement& r, uint32_t from_half_edge, uint32_t to) {
+  uint32_t h = from_half_edge;
+  do {
+    if (r.head(h) == to || r.apex(h) == to) return true;
+    h = r.twins[previous_half_edge(h)];
+  } while (h != k_none && h != from_half_edge);
+  if (h == from_half_edge) return false;
+  for (h = r.twins[from_half_edge]; h != k_none; h = r.twins[next_half_edge(h)]) {
+    if (r.apex(h) == to) return true;
+  }
+  return false;
+}
+
+static bool improves_by_flip(const LoopRefinement& r, uint32_t h) {
+  constexpr double k_gain = 1e-9, k_least_facing = 0.5;
+  if (r.twins[h] == k_none) return false;
+  const Diamond q = diamond_at(r, h);
+  const double before =
+      larger(greatest_cotangent(r, q.a, q.b, q.c), greatest_cotangent(r, q.b, q.a, q.d));
+  const double after =
+      larger(greatest_cotangent(r, q.a, q.d, q.c), greatest_cotangent(r, q.d, q.b, q.c));
+  if (!(after < before - k_gain * (1.0 + std::fabs(after)))) return false;
+  const Vec3 &a = r.at(q.a), &b = r.at(q.b), &c = r.at(q.c), &d = r.at(q.d);
+  // Across a sharp edge a flip would change the surface, or turn a triangle over. Needles have no
+  // say in what the direction is.
+  const Vec3 facing = unit(cross(b - a, c - a) + cross(a - b, d - b));
+  if (!(dot(unit(cross(d - a, c - a)), facing) > k_least_facing)) return false;
+  if (!(dot(unit(cross(b - d, c - d)), facing) > k_least_facing)) return false;
+  return !joined(r, previous_half_edge(h), q.d);
+}
+
+static void set_twins(LoopRefinement* r, uint32_t h, uint32_t g) {
+  r->twins[h] = g;
+  if (g != k_none) r->twins[g] = h;
+}
+
+// Triangles a b c and b a d become d c a and c d b.
+static Status flip_diamond(LoopRefinement* r, uint32_t h) {
+  const uint32_t g = r->twins[h];
+  const Diamond q = diamond_at(*r, h);
+  const uint32_t t = h / 3 * 3, s = g / 3 * 3;
+  const uint32_t bc = r->twins[next_half_edge(h)], ca = r->twins[previous_half_edge(h)];
+  const uint32_t ad = r->twins[next_half_edge(g)], db = r->twins[previous_half_edge(g)];
+  const uint32_t corner[2][3] = {{q.d, q.c, q.a}, {q.c, q.d, q.b}};
+  for (uint32_t k = 0; k < 3; ++k) {
+    (*r->triangle)[t + k] = corner[0][k];
+    (*r->triangle)[s + k] = corner[1][k];
+  }
+  set_twins(r, t, s);
+  set_twins(r, t + 1, ca);
+  set_twins(r, t + 2, ad);
+  set_twins(r, s + 1, db);
+  set_twins(r, s + 2, bc);
+  TRY(r->suspect.push(t + 1));
+  TRY(r->suspect.push(t + 2));
+  TRY(r->suspect.push(s + 1));
+  return r->suspect.push(s + 2);
+}
+
+// Cut short where more edges than there are would flip: no sound mesh comes near that.
+static Status flip_suspects(LoopRefinement* r) {
+  size_t flips_left = r->twins.size();
+  while (!r->suspect.empty()) {
+    const uint32_t h = r->suspect.back();
+    r->suspect.pop();
+    if (flips_left == 0 || !improves_by_flip(*r, h)) continue;
+    TRY(flip_diamond(r, h));
+    --flips_left;
+  }
+  return {};
+}
+
+static Status flip_everywhere(LoopRefinement* r) {
+  for (uint32_t h = 0; h < r->twins.size(); ++h) {
+    if (r->twins[h] == k_none || r->twins[h] < h) continue;
+    TRY(r->suspect.push(h));
+    TRY(flip_suspects(r));
+    if (h % 16384 == 0) TRY(r->suspect.context().checkpoint());
+  }
+  return {};
+}
+
+// The spacing, as far as the grading from both ends of an edge to its midpoint allows.
+static double size_between(const LoopRefinement& r, uint32_t a, uint32_t b) {
+  const double reach = k_grading * 0.5 * length(r.at(b) - r.at(a));
+  const double least = larger(r.size[a], r.size[b]) - reach;
+  const double most = smaller(r.size[a], r.size[b]) + reach;
+  if (least > most) return 0.5 * (r.size[a] + r.size[b]);
+  return smaller(larger(r.spacing, least), most);
+}
+
+// The length over the wished size of an edge that may be split, 0 of others.
+static double excess(const LoopRefinement& r, uint32_t h) {
+  if (r.twins[h] == k_none) return 0.0;
+  const Diamond q = diamond_at(r, h);
+  const Vec3 middle = 0.5 * (r.at(q.a) + r.at(q.b));
+  const double size = size_between(r, q.a, q.b);
+  if (length(r.at(q.c) - middle) < k_close * size) return 0.0;
+  if (length(r.at(q.d) - middle) < k_close * size) return 0.0;
+  return length(r.at(q.b) - r.at(q.a)) / size;
+}
+
+// Triangles a b c and b a d become a m c, m b c, b m d and m a d.
+static Status split_diamond(LoopRefinement* r, uint32_t h) {
+  const uint32_t g = r->twins[h];
+  const Diamond q = diamond_at(*r, h);
+  const uint32_t m = static_cast<uint32_t>(r->position->size());
+  const uint32_t t = static_cast<uint32_t>(r->triangle->size()), s = t + 3;
+  const uint32_t bc = next_half_edge(h), ad = next_half_edge(g);
+  const uint32_t outer_bc = r->twins[bc], outer_ad = r->twins[ad];
+  const uint32_t corner[6] = {m, q.b, q.c, m, q.a, q.d};
+  const double size = size_between(*r, q.a, q.b);
+  const Vec3 middle = 0.5 * (r->at(q.a) + r->at(q.b));
+  TRY(r->size.push(size));
+  TRY(r->position->push(middle));
+  for (uint32_t v : corner) {
+    TRY(r->triangle->push(v));
+    TRY(r->twins.push(k_none));
+  }
+  (*r->triangle)[bc] = m;
+  (*r->triangle)[ad] = m;
+  set_twins(r, h, s);
+  set_twins(r, g, t);
+  set_twins(r, bc, t + 2);
+  set_twins(r, ad, s + 2);
+  set_twins(r, t + 1, outer_bc);
+  set_twins(r, s + 1, outer_ad);
+  TRY(r->suspect.push(previous_half_edge(h)));
+  TRY(r->suspect.push(t + 1));
+  TRY(r->suspect.push(previous_half_edge(g)));
+  return r->suspect.push(s + 1);
+}
+
+static Status split_longer(LoopRefinement* r, double level, size_t* splits) {
+  *splits = 0;
+  for (uint32_t h = 0; h < r->twins.size(); ++h) {
+    if (r->position->size() >= r->most_points) break;
+    if (!(excess(*r, h) > level)) continue;
+    TRY(split_diamond(r, h));
+    TRY(flip_suspects(r));
+    ++*splits;
+    if (*splits % 4096 == 0) TRY(r->suspect.context().checkpoint());
+  }
+  return {};
+}
+
+// No triangle round v may turn over when v moves to `target`.
+static bool may_move(const LoopRefinement& r, Span<const uint32_t> star, const Vec3& target) {
+  for (uint32_t h : star) {
+    const Vec3 &v = r.at(r.origin(h)), &p = r.at(r.head(h)), &q = r.at(r.apex(h));
+    if (!(dot(cross(p - v, q - v), cross(p - target, q - target)) > 0.0)) return false;
+  }
+  return true;
+}
+
+// The area-weighted mean of the centroids of a star.
+static Vec3 centre_of(const LoopRefinement& r, Span<const uint32_t> star) {
+  Vec3 sum;
+  double areas = 0.0;
+  for (uint32_t h : star) {
+    const Vec3 &v = r.at(r.origin(h)), &p = r.at(r.head(h)), &q = r.at(r.apex(h));
+    const double area = length(cross(p - v, q - v));
+    sum += area * ((1.0 / 3.0) * (v + p + q));
+    areas += area;
+  }
+  return areas > 0.0 ? (1.0 / areas) * sum : r.at(r.origin(star[0]));
+}
+
+// One sweep over the inner points in their order; within the tangent planes, or freely.
+static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
+  const uint32_t n = static_cast<uint32_t>(r->position->size());
+  TRY(find_corners(n, r->triangle->span(), &stars->start, &stars->corner));
+  TRY(stars->normal.resize(n));
+  vertex_normals(r->position->span(), r->triangle->span(), stars->normal.span());
+  for (uint32_t v = r->rim; v < n; ++v) {
+    const uint32_t first = stars->start[v];
+    const Span<const uint32_t> star = stars->corner.span().part(first, stars->start[v + 1] - first);
+    const Vec3 step = centre_of(*r, star) - r->at(v);
+    const Vec3 target = r->at(v) + (within_plane ? reject(step, stars->normal[v]) : step);
+    if (may_move(*r, star, target)) (*r->position)[v] = target;
+    if (v % 16384 == 0) TRY(r->suspect.context().checkpoint());
+  }
+  return {};
+}
+
+// Sizes were made from the two ends of an edge only; here every neighbour has its say.
+static void grade_sizes(LoopRefinement* r, const Stars& stars) {
+  for (uint32_t v = r->rim; v < r->size.size(); ++v) {
+    double least = 0.0, most = DBL_MAX;
+    for (uint32_t k = stars.start[v]; k < stars.start[v + 1]; ++k) {
+      const uint32_t u = r->head(stars.corner[k]);
+      const double reach = k_grading * length(r->at(u) - r->at(v));
+      least = larger(least, r->size[u] - reach);
+      most = smaller(most, r->size[u] + reach);
+    }
+    r->size[v] = least > most ? 0.5 * (least + most) : smaller(larger(r->spacing, least), most);
+  }
+}
+
+static Status relax_and_flip(LoopRefinement* r, int tangential, int free, Stars* stars) {
+  for (int sweep = 0; sweep < tangential; ++sweep) TRY(relax_inner(r, true, stars));
+  for (int sweep = 0; sweep < free; ++sweep) TRY(relax_inner(r, false, stars));
+  grade_sizes(r, *stars);
+  return flip_everywhere(r);
+}
+
+// Along the rim, twice round in each direction so that the start does not show.
+static void grade_rim(LoopRefinement* r) {
+  const uint32_t n = r->rim;
+  for (uint32_t i = 0; i < 4 * n; ++i) {
+    const uint32_t v = i < 2 * n ? i % n : n - 1 - i % n;
+    const uint32_t before = i < 2 * n ? (v + n - 1) % n : (v + 1) % n;
+    const double reach = k_grading * length(r->at(v) - r->at(before));
+    r->size[v] = smaller(r->size[v], r->size[before] + reach);
+  }
+}
+
+static Status wish_sizes(LoopRefinement* r) {
+  TRY(r->size.assign(r->rim, 0.0));
+  double area = 0.0;
+  for (uint32_t v = 0; v < r->rim; ++v) {
+    const uint32_t next = v + 1 < r->rim ? v + 1 : 0;
+    const double edge = length(r->at(next) - r->at(v));
+    r->size[v] += 0.5 * edge;
+    r->size[next] += 0.5 * edge;
+  }
+  grade_rim(r);
+  for (uint32_t h = 0; h < r->triangle->size(); h += 3) {
+    area += 0.5 * length(cross(r->at(r->head(h)) - r->at(r->origin(h)),
+                               r->at(r->apex(h)) - r->at(r->origin(h))));
+  }
+  // Regular triangles have 0.87 square sizes a point; a fine rim adds layers of its own.
+  const double points = area / (r->spacing * r->spacing);
+  if (!(points + r->rim < 5e7)) {
+    return fail(Code::too_large, "the spacing is too small for the size of the patch");
+  }
+  r->most_points = static_cast<size_t>(4.0 * points + 24.0 * r->rim + 1024.0);
+  return {};
+}
+
+Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
+                   Array<uint32_t>* triangle) {
+  LoopRefinement r(context, rim, spacing, position, triangle);
+  Stars stars(context);
+  TRY(find_twins(rim, triangle->span(), &r.twins));
+  TRY(wish_sizes(&r));
+  TRY(flip_everywhere(&r));
+  double level = 0.0;
+  for (uint32_t h = 0; h < r.twins.size(); ++h) level = larger(level, excess(r, h));
+  size_t splits = 0;
+  while (level * k_level > k_long_edge) {
+    level *= k_level;
+    TRY(split_longer(&r, level, &splits));
+    TRY(relax_and_flip(&r, k_relaxing_sweeps_of_level, 0, &stars));
+  }
+  for (int pass = 0; pass < k_most_passes; ++pass) {
+    TRY(split_longer(&r, k_long_edge, &splits));
+    if (splits == 0) break;
+    TRY(relax_and_flip(&r, k_relaxing_sweeps_of_level, 0, &stars));
+  }
+  TRY(relax_and_flip(&r, k_last_relaxing_sweeps, 0, &stars));
+  TRY(relax_and_flip(&r, 0, k_umbrella_sweeps, &stars));
+  return relax_and_flip(&r, k_last_relaxing_sweeps, 0, &stars);
+}
+
+}  // namespace wireskin::mesh
