@@ -1,8 +1,8 @@
 #include "surface.h"
 
-#include "crease.h"
 #include "curves/sides.h"
 #include "mesh/curvature.h"
+#include "network/crease.h"
 #include "network/node_normals.h"
 #include "network/patch_mesh.h"
 #include "smooth/fair.h"
@@ -179,14 +179,16 @@ static Status smooth_patches(Context& context, const network::PatchMesh& patches
 
 static Status smooth_creased(Context& context, const network::PatchMesh& patches,
                              smooth::Method method, const mesh::Topology& topology,
-                             Creased* creased, Surface* surface) {
+                             network::CreasedMesh* creased, Surface* surface) {
   const Workpiece piece = {creased->position.span(),     creased->normal.span(),
                            creased->cut.triangle.span(), creased->held.span(),
                            creased->on_border.span(),    creased->bare.span()};
   TRY(apply_method(context, patches, piece, method, surface));
-  merge_creases(*creased, surface);
+  network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
   TRY(measure(context, topology.on_border.span(), surface));
-  return measure_sides(context, *creased, surface);
+  return network::measure_sides(
+      context, *creased,
+      {surface->normal.span(), surface->mean_curvature.span(), surface->constraint_normal.span()});
 }
 
 // Makes room for the free vertices behind those of the curves.
@@ -233,9 +235,11 @@ Status surface_curves(Context& context, const CurveSet& set, smooth::Method meth
   TRY(take_vertices(vertices, patches, surface));
   TRY(in_terms_of_nodes(
       count_topology(patches.vertices, patches.triangle.span(), &topology, counts), nodes.span()));
-  if (!has_creases(vertices)) return smooth_patches(context, patches, method, topology, surface);
-  Creased creased(context);
-  TRY(cut_along_creases(context, network, vertices, set.sharp, nodes.span(), *surface, &creased));
+  if (!network::has_creases(vertices))
+    return smooth_patches(context, patches, method, topology, surface);
+  network::CreasedMesh creased(context);
+  TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
+                                 surface->position.span(), &creased));
   return smooth_creased(context, patches, method, topology, &creased, surface);
 }
 

@@ -1,8 +1,8 @@
-#include "crease.h"
+#include "network/crease.h"
 
 #include "mesh/curvature.h"
 
-namespace wireskin {
+namespace wireskin::network {
 
 namespace {
 
@@ -28,7 +28,7 @@ struct Corners {
 // curves that has a triangle there: the normals of `side` at the half-edge's two ends are its
 // entries.
 template <typename Visit>
-static void for_curve_sides(const network::Network& network, const network::CurveVertices& vertices,
+static void for_curve_sides(const Network& network, const CurveVertices& vertices,
                             const Corners& corners, const Visit& visit) {
   for (uint32_t s = 0; s < network.segment.size(); ++s) {
     const uint32_t first = vertices.side_start[s];
@@ -43,9 +43,9 @@ static void for_curve_sides(const network::Network& network, const network::Curv
   }
 }
 
-static Status cut_mesh(const network::Network& network, const network::CurveVertices& vertices,
+static Status cut_mesh(const Network& network, const CurveVertices& vertices,
                        Span<const uint8_t> sharp, const Corners& corners, uint32_t count,
-                       Creased* creased) {
+                       CreasedMesh* creased) {
   Array<uint8_t> marked(creased->held.context());
   TRY(marked.assign(corners.triangle.size(), 0));
   for_curve_sides(network, vertices, corners,
@@ -56,9 +56,9 @@ static Status cut_mesh(const network::Network& network, const network::CurveVert
 }
 
 // The mean of the normals known in every sector, and whether it opposes one of them.
-static Status find_sector_normals(const network::Network& network,
-                                  const network::CurveVertices& vertices, const Corners& corners,
-                                  Span<const network::Node> nodes, Creased* creased) {
+static Status find_sector_normals(const Network& network, const CurveVertices& vertices,
+                                  const Corners& corners, Span<const Node> nodes,
+                                  CreasedMesh* creased) {
   const Span<Vec3> normal = creased->normal.span();
   const Span<const uint32_t> triangle = creased->cut.triangle.span();
   for (Vec3& n : normal) n = Vec3{};
@@ -86,16 +86,15 @@ static Status find_sector_normals(const network::Network& network,
   return status;
 }
 
-Status cut_along_creases(Context& context, const network::Network& network,
-                         const network::CurveVertices& vertices, Span<const uint8_t> sharp,
-                         Span<const network::Node> nodes, const Surface& surface,
-                         Creased* creased) {
-  const uint32_t count = static_cast<uint32_t>(surface.position.size());
-  Corners corners(context, surface.triangle.span());
+Status cut_along_creases(const Network& network, const CurveVertices& vertices,
+                         Span<const uint8_t> sharp, Span<const Node> nodes, const PatchMesh& mesh,
+                         Span<const Vec3> position, CreasedMesh* creased) {
+  Context& context = creased->held.context();
+  Corners corners(context, mesh.triangle.span());
   mesh::Topology topology(context);
   Array<uint32_t> twins(context);
-  TRY(mesh::find_corners(count, corners.triangle, &corners.start, &corners.corner));
-  TRY(cut_mesh(network, vertices, sharp, corners, count, creased));
+  TRY(mesh::find_corners(mesh.vertices, corners.triangle, &corners.start, &corners.corner));
+  TRY(cut_mesh(network, vertices, sharp, corners, mesh.vertices, creased));
   const uint32_t copies = creased->cut.vertices();
   TRY(creased->position.resize(copies));
   TRY(creased->normal.resize(copies));
@@ -104,8 +103,8 @@ Status cut_along_creases(Context& context, const network::Network& network,
   TRY(find_sector_normals(network, vertices, corners, nodes, creased));
   for (uint32_t c = 0; c < copies; ++c) {
     const uint32_t v = creased->cut.origin[c];
-    creased->position[c] = surface.position[v];
-    creased->held[c] = surface.vertex_curve[v] != k_none;
+    creased->position[c] = position[v];
+    creased->held[c] = v < mesh.curve_vertices;
     creased->bare[c] = creased->held[c] && creased->normal[c] == Vec3{};
   }
   TRY(mesh::find_twins(copies, creased->cut.triangle.span(), &twins));
@@ -113,17 +112,17 @@ Status cut_along_creases(Context& context, const network::Network& network,
   return creased->on_border.copy(topology.on_border.span());
 }
 
-void merge_creases(const Creased& creased, Surface* surface) {
+void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle) {
   for (size_t c = 0; c < creased.position.size(); ++c) {
-    surface->position[creased.cut.origin[c]] = creased.position[c];
+    position[creased.cut.origin[c]] = creased.position[c];
   }
-  for (size_t h = 0; h < creased.cut.triangle.size(); ++h) {
-    surface->triangle[h] = creased.cut.origin[creased.cut.triangle[h]];
+  for (size_t h = 0; h < triangle.size(); ++h) {
+    triangle[h] = creased.cut.origin[creased.cut.triangle[h]];
   }
 }
 
-Status measure_sides(Context& context, const Creased& creased, Surface* surface) {
-  const size_t n = surface->position.size(), copies = creased.position.size();
+Status measure_sides(Context& context, const CreasedMesh& creased, const VertexMeasures& measures) {
+  const size_t n = measures.normal.size(), copies = creased.position.size();
   Array<Vec3> normal(context);
   Array<double> curvature(context), count(context);
   TRY(normal.resize(copies));
@@ -132,24 +131,25 @@ Status measure_sides(Context& context, const Creased& creased, Surface* surface)
   mesh::vertex_normals(creased.position.span(), triangle, normal.span());
   TRY(mesh::mean_curvature(creased.position.span(), normal.span(), triangle,
                            creased.on_border.span(), &curvature));
-  TRY(surface->normal.assign(n, Vec3{}));
-  TRY(surface->mean_curvature.assign(n, 0.0));
-  TRY(surface->constraint_normal.assign(n, Vec3{}));
+  for (size_t v = 0; v < n; ++v) {
+    measures.normal[v] = measures.constraint_normal[v] = Vec3{};
+    measures.mean_curvature[v] = 0.0;
+  }
   for (size_t c = 0; c < copies; ++c) {
     const uint32_t v = creased.cut.origin[c];
-    surface->normal[v] += normal[c];
-    surface->mean_curvature[v] += curvature[c];
-    if (creased.held[c] && !creased.bare[c]) surface->constraint_normal[v] += creased.normal[c];
+    measures.normal[v] += normal[c];
+    measures.mean_curvature[v] += curvature[c];
+    if (creased.held[c] && !creased.bare[c]) measures.constraint_normal[v] += creased.normal[c];
     count[v] += 1.0;
   }
   for (size_t v = 0; v < n; ++v) {
     // The sides of a knife's edge cancel out: then the first copy's normal stands for both.
-    const bool cancels = surface->normal[v] == Vec3{};
-    surface->normal[v] = unit(cancels ? normal[v] : surface->normal[v]);
-    surface->mean_curvature[v] /= count[v];
-    surface->constraint_normal[v] = unit(surface->constraint_normal[v]);
+    const bool cancels = measures.normal[v] == Vec3{};
+    measures.normal[v] = unit(cancels ? normal[v] : measures.normal[v]);
+    measures.mean_curvature[v] /= count[v];
+    measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
   }
   return {};
 }
 
-}  // namespace wireskin
+}  // namespace wireskin::network
