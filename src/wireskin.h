@@ -272,8 +272,11 @@ typedef struct wsk_curve {
   /* Non-zero: the curve is a crease. The surface is smooth on each side of it, not across it, and
      has a normal on each side: `normals` are those on the left, seen from outside by someone who
      walks along the curve, `normals_right` those on the right, strides alike. Either may be null:
-     not known; the surface then leaves the curve on that side as it likes. Zero, as memset leaves
-     it: the curve is smooth, `normals` hold on both sides and `normals_right` is not read. */
+     not known; the surface then leaves the curve on that side as it likes, and a patch none of
+     whose normals are known spans its border with little area. Both may be equal: then the surface
+     is smooth across the curve too, but its curvature may jump there (a hemisphere on a cylinder).
+     A boundary curve may be sharp to have no normals. Zero, as memset leaves it: the curve is
+     smooth, `normals` hold on both sides and `normals_right` is not read. */
   int32_t sharp;
   const double* normals_right;
   size_t normal_right_stride;
@@ -289,6 +292,11 @@ typedef struct wsk_curve {
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
  * tip of the node's normal. Each patch must be seen without folds from the mean of its normals and
  * be bounded by one loop.
+ *
+ * Where sharp curves meet, the node's normal is the mean of their sides; where some of these are
+ * not known it is estimated from the directions of the curves, outward as the neighbours tell. Round
+ * such a node smoothness is asked between one sharp curve and the next; a sharp curve that ends
+ * where no other goes on fades out there.
  *
  * `options` may be null (defaults); `report` may be null. On success *surface is the result, to be
  * given to wsk_surface_free; on failure it is untouched. */

@@ -6,6 +6,7 @@
 
 #include "support/crease_nets.h"
 #include "support/faulty_allocator.h"
+#include "support/scenes.h"
 
 using namespace crease_nets;
 
@@ -205,6 +206,37 @@ TEST_CASE("creases: one that dies, at the end of a smooth curve and against one"
         const Error e = error_of(b, [](P p) { return p.z - fading_height(p.x, p.y); });
         CHECK(e.rms < 4e-3);
         CHECK(e.max < 8e-3);
+      }
+    }
+  }
+}
+
+// Great circles of the sphere, some of them sharp though the sphere is smooth there.
+TEST_CASE("creases: sharp and smooth curves mixed on a sphere") {
+  const scenes::Scene scene = scenes::octants();
+  for (size_t sharp = 0; sharp <= 3; ++sharp) {
+    for (bool normals : {true, false}) {
+      Net net;
+      for (size_t c = 0; c < 3; ++c) {
+        const scenes::Curve& circle = scene.curves[c];
+        Line line;
+        line.positions = circle.positions;
+        line.nodes = circle.nodes;
+        line.closed = true;
+        line.sharp = c < sharp;
+        if (!line.sharp || normals) line.normals = circle.normals;
+        if (line.sharp && normals) line.right = circle.normals;
+        net.lines.push_back(line);
+      }
+      CAPTURE(sharp);
+      CAPTURE(normals);
+      const Built b = must_build(net, WSK_METHOD_FAIR, 0.08);
+      const double rms = error_of(b, [](P p) { return std::sqrt(dot(p, p)) - 1; }).rms;
+      if (normals) CHECK(rms < 5e-5);
+      if (!normals && sharp < 3) CHECK(rms < 3e-3);
+      if (!normals && sharp == 3) {  // nothing tells that it bulges
+        CHECK(rms > 0.05);
+        CHECK(rms < 0.2);
       }
     }
   }
