@@ -121,9 +121,10 @@ void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_
   }
 }
 
-Status measure_sides(Context& context, const CreasedMesh& creased, const VertexMeasures& measures) {
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const uint32_t> patch,
+                     const VertexMeasures& measures) {
   const size_t n = measures.normal.size(), copies = creased.position.size();
-  Array<Vec3> normal(context);
+  Array<Vec3> normal(context), given(context);
   Array<double> curvature(context), count(context);
   TRY(normal.resize(copies));
   TRY(count.assign(n, 0.0));
@@ -131,6 +132,7 @@ Status measure_sides(Context& context, const CreasedMesh& creased, const VertexM
   mesh::vertex_normals(creased.position.span(), triangle, normal.span());
   TRY(mesh::mean_curvature(creased.position.span(), normal.span(), triangle,
                            creased.on_border.span(), &curvature));
+  TRY(given.assign(copies, Vec3{}));
   for (size_t v = 0; v < n; ++v) {
     measures.normal[v] = measures.constraint_normal[v] = Vec3{};
     measures.mean_curvature[v] = 0.0;
@@ -139,7 +141,8 @@ Status measure_sides(Context& context, const CreasedMesh& creased, const VertexM
     const uint32_t v = creased.cut.origin[c];
     measures.normal[v] += normal[c];
     measures.mean_curvature[v] += curvature[c];
-    if (creased.held[c] && !creased.bare[c]) measures.constraint_normal[v] += creased.normal[c];
+    if (creased.held[c] && !creased.bare[c]) given[c] = creased.normal[c];
+    measures.constraint_normal[v] += given[c];
     count[v] += 1.0;
   }
   for (size_t v = 0; v < n; ++v) {
@@ -149,7 +152,9 @@ Status measure_sides(Context& context, const CreasedMesh& creased, const VertexM
     measures.mean_curvature[v] /= count[v];
     measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
   }
-  return {};
+  *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
+  return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
+                               creased.held.span(), measures.dihedral);
 }
 
 }  // namespace wireskin::network

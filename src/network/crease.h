@@ -9,6 +9,7 @@
 #pragma once
 
 #include "mesh/cut.h"
+#include "mesh/measure.h"
 #include "network/patch_mesh.h"
 
 namespace wireskin::network {
@@ -46,9 +47,14 @@ struct VertexMeasures {
   Span<Vec3> normal;
   Span<double> mean_curvature;
   Span<Vec3> constraint_normal;  // zero where free, or not known
+  // Over the sides, and over the edges of the curves that are no creases.
+  mesh::AngleStatistics* normal_deviation;
+  mesh::AngleStatistics* dihedral;
 };
 
 // At creases all of these are those of the sides, each measured by itself, in the mean.
-Status measure_sides(Context& context, const CreasedMesh& creased, const VertexMeasures& measures);
+// `patch`: of each triangle.
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const uint32_t> patch,
+                     const VertexMeasures& measures);
 
 }  // namespace wireskin::network

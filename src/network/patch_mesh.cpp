@@ -104,13 +104,22 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
 }
 
 static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& enclosure,
-                            double spacing, PatchScratch* scratch) {
+                            double spacing, double least_facing, PatchScratch* scratch) {
   Plane plane;
   TRY(fit_plane(vertices, scratch->border.span(), scratch->loop_normal.span(), &plane));
   const size_t n = scratch->border.size();
   TRY(scratch->polygon.resize(n));
-  for (size_t i = 0; i < n; ++i) scratch->polygon[i] = plane.project(scratch->loop[i]);
+  double facing = 1.0;
+  for (size_t i = 0; i < n; ++i) {
+    scratch->polygon[i] = plane.project(scratch->loop[i]);
+    const double cosine = dot(scratch->loop_normal[i], plane.normal);
+    if (cosine < facing) facing = cosine;
+  }
   TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
+  if (facing < least_facing) {
+    return fail(Code::patch_without_plane, "the plane of the patch sees its border edge-on");
+  }
+  round_to_grid(scratch->polygon.span(), &spacing);
   TRY(planar::mesh_polygon(scratch->border.context(), scratch->polygon.span(), spacing,
                            &scratch->planar));
   const Array<Vec2>& points = scratch->planar.points;
@@ -133,8 +142,8 @@ static Status mesh_in_space(double spacing, PatchScratch* scratch) {
 }
 
 static Status mesh_patch(const Network& network, const CurveVertices& vertices,
-                         const Enclosure& enclosure, uint32_t patch, PatchScratch* scratch,
-                         Builder* builder) {
+                         const Enclosure& enclosure, double least_facing, uint32_t patch,
+                         PatchScratch* scratch, Builder* builder) {
   TRY(border_of_patch(network, vertices, patch, &scratch->border));
   TRY(normals_of_border(network, vertices, patch, &scratch->loop_normal));
   const size_t n = scratch->border.size();
@@ -143,7 +152,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
     scratch->loop[i] = vertices.position[scratch->border[i]];
   }
   const double spacing = mean_edge(vertices, scratch->border.span());
-  const Status status = mesh_in_plane(vertices, enclosure, spacing, scratch);
+  const Status status = mesh_in_plane(vertices, enclosure, spacing, least_facing, scratch);
   if (status.ok()) {
     TRY(builder->mesh->way.push(PatchWay::plane));
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
@@ -224,7 +233,8 @@ static Status split_shared_chords(const Network& network, const CurveVertices& v
   return {};
 }
 
-Status mesh_patches(const Network& network, const CurveVertices& vertices, PatchMesh* mesh) {
+Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
+                    PatchMesh* mesh) {
   Context& context = mesh->triangle.context();
   Builder builder(context, mesh);
   PatchScratch scratch(context);
@@ -234,7 +244,7 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, Patch
   TRY(mesh->start.copy(vertices.position.span()));
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    TRY(at_patch(mesh_patch(network, vertices, enclosure, p, &scratch, &builder), network, p));
+    TRY(at_patch(mesh_patch(network, vertices, enclosure, least_facing, p, &scratch, &builder), network, p));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));

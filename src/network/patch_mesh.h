@@ -32,8 +32,11 @@ struct PatchMesh {
       : triangle(context), patch(context), shape(context), way(context), start(context) {}
 };
 
+// `least_facing`: a plane is taken only where the cosine between its normal and each normal of the
+// border is at least this; -1 takes every plane that shows the border without folds.
 // Fails with patch_several_loops, or with patch_folded where the border encloses nothing in space
 // either, naming the patch.
-Status mesh_patches(const Network& network, const CurveVertices& vertices, PatchMesh* mesh);
+Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
+                    PatchMesh* mesh);
 
 }  // namespace wireskin::network

@@ -1,5 +1,5 @@
 // The fair surface: positions of the free vertices from a harmonic start, two steps of the paper's
-// method on the current mesh in space, and three steps of minimum variation, with mesh care
+// method on the current mesh in space, and up to six steps of minimum variation, with mesh care
 // between.
 //
 // In: a mesh with held vertices (positions, unit normals), the patch of each triangle, and the
@@ -18,18 +18,20 @@ namespace wireskin::smooth {
 
 struct FairMesh {
   Span<Vec3> position;
-  Span<Vec3> normal;  // in: of held vertices
+  Span<Vec3> normal;  // in: of the vertices on curves
   Span<uint32_t> triangle;
   Span<const uint32_t> patch;
-  Span<const uint8_t> held;
+  Span<const uint8_t> on_curve;
+  Span<const uint8_t> held;  // on a curve and not soft
   Span<const uint8_t> on_border;
+  Soft soft;
   Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
   Span<const uint8_t> bare = {};                // held, on a border, normal not known; empty: none
 };
 
 struct FairOptions {
   int paper_steps = 2;
-  int displacement_steps = 3;
+  int displacement_steps = 6;  // at most; fewer where they have become small
   double smoothness = 0.12;  // c: the smoothing length in units of sqrt(area of the mesh / patches)
 };
 

@@ -17,6 +17,7 @@
 #pragma once
 
 #include "mesh/operators.h"
+#include "smooth/soft.h"
 
 namespace wireskin::smooth {
 
@@ -34,9 +35,11 @@ enum class Metric { planes, space };
 struct Domain {
   Span<const uint32_t> triangle;
   Span<const mesh::TriangleShape> shape;  // of each triangle
-  Span<const uint8_t> held;               // of each vertex
-  Span<const uint8_t> on_border;          // of each vertex; border vertices are held
+  Span<const uint8_t> on_curve;           // of each vertex; those of open borders are
+  Span<const uint8_t> held;               // of each vertex: on a curve and not soft
+  Span<const uint8_t> on_border;          // of each vertex
   Metric metric = Metric::planes;
+  Soft soft = {};
   // Held vertices on open borders whose normal is not known (any value): that of the surface as far
   // as it is found stands for it. Empty: none.
   Span<const uint8_t> bare = {};

@@ -82,7 +82,7 @@ struct Stages {
     return status.ok();
   }
   bool mesh_patches(double spacing) {
-    if (resample(spacing)) status = wireskin::network::mesh_patches(network, vertices, &mesh);
+    if (resample(spacing)) status = wireskin::network::mesh_patches(network, vertices, -1.0, &mesh);
     return status.ok();
   }
 
