@@ -113,7 +113,8 @@ static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& encl
   for (size_t i = 0; i < n; ++i) {
     scratch->polygon[i] = plane.project(scratch->loop[i]);
     const double cosine = dot(scratch->loop_normal[i], plane.normal);
-    if (cosine < facing) facing = cosine;
+    const bool known = scratch->loop_normal[i] != Vec3{};
+    if (known && cosine < facing) facing = cosine;
   }
   TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
   if (facing < least_facing) {
