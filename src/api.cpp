@@ -210,6 +210,8 @@ struct CurveStorage {
   Array<uint32_t> number;
   Array<uint8_t> closed, boundary;
   Array<double> soft;
+  Array<uint8_t> sharp;  // empty where no curve is
+  Array<Vec3> right;
 
   explicit CurveStorage(Context& context)
       : start(context),
@@ -218,11 +220,14 @@ struct CurveStorage {
         number(context),
         closed(context),
         boundary(context),
-        soft(context) {}
+        soft(context),
+        sharp(context),
+        right(context) {}
 };
 
-static Status count_samples(const wsk_curve* curves, size_t count, size_t* total) {
+static Status count_samples(const wsk_curve* curves, size_t count, size_t* total, bool* sharp) {
   *total = 0;
+  *sharp = false;
   for (size_t c = 0; c < count; ++c) {
     Place place;
     place.curve = static_cast<uint32_t>(c);
@@ -236,7 +241,8 @@ static Status count_samples(const wsk_curve* curves, size_t count, size_t* total
     if (curve.positions == nullptr) {
       return fail(Code::bad_argument, "the curve has no positions", place);
     }
-    if (curve.normals == nullptr) {
+    *sharp = *sharp || curve.sharp != 0;
+    if (curve.normals == nullptr && curve.sharp == 0) {
       return fail(Code::missing_normals, "the curve has no normals", place);
     }
     if (curve.soft - curve.soft != 0.0) {
@@ -247,19 +253,29 @@ static Status count_samples(const wsk_curve* curves, size_t count, size_t* total
   return {};
 }
 
+// A normal of one side of a sharp curve; zero where the side has none.
+static Status read_side_normal(const double* data, size_t stride, size_t i, const Place& place,
+                               Vec3* normal) {
+  *normal = Vec3{};
+  return data == nullptr ? Status{} : read_normal({data, stride}, i, place, normal);
+}
+
 static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* storage) {
   const Rows positions = {curve.positions, curve.position_stride};
-  const Rows normals = {curve.normals, curve.normal_stride};
   for (size_t i = 0; i < curve.sample_count; ++i) {
     Place place;
     place.curve = index;
     place.sample = static_cast<uint32_t>(i);
     Vec3 position, normal;
     TRY(read_position(positions, i, place, &position));
-    TRY(read_normal(normals, i, place, &normal));
+    TRY(read_side_normal(curve.normals, curve.normal_stride, i, place, &normal));
     storage->position.push_reserved(position);
     storage->normal.push_reserved(normal);
     storage->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
+    if (storage->sharp.empty()) continue;
+    const double* right = curve.sharp != 0 ? curve.normals_right : nullptr;
+    TRY(read_side_normal(right, curve.normal_right_stride, i, place, &normal));
+    storage->right.push_reserved(normal);
   }
   storage->closed.push_reserved(curve.closed != 0);
   storage->boundary.push_reserved(curve.boundary != 0);
@@ -273,7 +289,8 @@ static Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* s
   if (count == 0) return fail(Code::empty, "there are no curves");
   if (curves == nullptr) return fail(Code::bad_argument, "the curves are null");
   if (count >= k_none) return fail(Code::too_large, "too many curves for 32-bit indices");
-  TRY(count_samples(curves, count, &total));
+  bool sharp = false;
+  TRY(count_samples(curves, count, &total, &sharp));
   TRY(storage->start.reserve(count + 1));
   TRY(storage->closed.reserve(count));
   TRY(storage->boundary.reserve(count));
@@ -281,6 +298,11 @@ static Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* s
   TRY(storage->position.reserve(total));
   TRY(storage->normal.reserve(total));
   TRY(storage->number.reserve(total));
+  if (sharp) {
+    TRY(storage->sharp.resize(count));
+    TRY(storage->right.reserve(total));
+    for (size_t c = 0; c < count; ++c) storage->sharp[c] = curves[c].sharp != 0;
+  }
   storage->start.push_reserved(0);
   for (size_t c = 0; c < count; ++c) {
     TRY(read_curve(curves[c], static_cast<uint32_t>(c), storage));
@@ -436,7 +458,7 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   }
   const CurveSet set = {storage.start.span(),  storage.position.span(), storage.normal.span(),
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
-                        storage.soft.span()};
+                        storage.soft.span(),   storage.sharp.span(),   storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
                              smoothing_of(options, scale)};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default

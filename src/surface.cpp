@@ -1,14 +1,17 @@
 #include "surface.h"
 
 #include "curves/distance.h"
+#include "curves/sides.h"
 #include "mesh/curvature.h"
+#include "network/crease.h"
+#include "network/node_normals.h"
 #include "network/patch_mesh.h"
 #include "smooth/fair.h"
 
 namespace wireskin {
 
-// A plane that sees part of a border more steeply than this distorts the mesh; the methods that leave the
-// planes behind then start better from a triangulation in space.
+// A plane that sees part of a border more steeply than this distorts the mesh; the methods that
+// leave the planes behind then start better from a triangulation in space.
 static constexpr double k_least_facing = 0.25;
 
 static double diagonal(Span<const Vec3> points) {
@@ -26,18 +29,34 @@ static curves::Samples samples_of(const CurveSet& set, Span<const uint32_t> node
           node.empty() ? node : node.part(first, count), set.closed[curve] != 0};
 }
 
+// The same with the normals on the right of a sharp curve.
+static curves::Samples right_samples_of(const CurveSet& set, uint32_t curve) {
+  curves::Samples samples = samples_of(set, {}, curve);
+  samples.normal = set.right.part(set.start[curve], samples.position.size());
+  return samples;
+}
+
 static Status at_curve(Status status, uint32_t curve) {
   if (!status.ok()) status.place.curve = curve;
   return status;
 }
 
-// Gives the samples of every node its position and normal.
+// What sharp curves need besides: the normals on their right, and those of their nodes.
+static Status fit_sides(const CurveSet& set, Span<network::Node> nodes, curves::Curves* fitted) {
+  for (uint32_t c = 0; c < set.sharp.size(); ++c) {
+    if (set.sharp[c]) TRY(at_curve(curves::check_samples(right_samples_of(set, c)), c));
+  }
+  TRY(curves::fit_right_normals({set.start, set.right, set.sharp}, fitted));
+  return network::complete_node_normals(*fitted, nodes);
+}
+
+// Gives the samples of every node its position and normal; at creases curves keep their own.
 static void unite_nodes(const CurveSet& set, Span<const uint32_t> node,
                         Span<const network::Node> nodes) {
   for (size_t i = 0; i < node.size(); ++i) {
     if (node[i] == k_none) continue;
     set.position[i] = nodes[node[i]].position;
-    set.normal[i] = nodes[node[i]].normal;
+    if (!nodes[node[i]].crease) set.normal[i] = nodes[node[i]].normal;
   }
 }
 
@@ -55,14 +74,20 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
     TRY(kept_start->push(static_cast<uint32_t>(kept->size())));
   }
   if (options.noise == network::Noise::none) return {};
+  // Where curves are sharp a node has no one normal, so normals stay as they are; the constant
+  // field in their place has no noise.
+  Array<Vec3> constant(context);
+  const bool creased = !set.sharp.empty();
+  if (creased) TRY(constant.assign(set.normal.size(), Vec3{0, 0, 1}));
+  const Span<Vec3> normals = creased ? constant.span() : set.normal;
   TRY(network::smooth_samples(
       context,
-      {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, set.normal},
+      {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, normals},
       options, &counts->noise));
   for (size_t i = 0; i < node.size(); ++i) {
     if (node[i] == k_none) continue;
     nodes[node[i]].position = set.position[i];
-    nodes[node[i]].normal = set.normal[i];
+    if (!creased) nodes[node[i]].normal = set.normal[i];
   }
   return {};
 }
@@ -77,7 +102,8 @@ static Status fit_curves(Context& context, const CurveSet& set, double size,
   for (uint32_t c = 0; c < counts->curves; ++c) {
     TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
   }
-  const network::SampleNumbers samples = {set.start, set.number, set.position, set.normal};
+  const network::SampleNumbers samples = {set.start,  set.number, set.position,
+                                          set.normal, set.sharp,  set.right};
   TRY(network::find_nodes(samples, k_node_tolerance * size, nodes, &node));
   counts->nodes = static_cast<uint32_t>(nodes->size());
   unite_nodes(set, node.span(), nodes->span());
@@ -89,7 +115,7 @@ static Status fit_curves(Context& context, const CurveSet& set, double size,
     TRY(at_curve(curves::fit_curve(samples_of(set, node.span(), c), own, fitted), c));
     TRY(context.progress(static_cast<double>(c + 1) / counts->curves));
   }
-  return {};
+  return set.sharp.empty() ? Status{} : fit_sides(set, nodes->span(), fitted);
 }
 
 // The curves as resampled, edge by edge.
@@ -185,45 +211,108 @@ struct Start {
 
 }  // namespace
 
+namespace {
+
+// What the methods work on: the mesh itself, or the one cut open along its creases.
+struct Workpiece {
+  Span<Vec3> position, normal;
+  Span<uint32_t> triangle;
+  Span<const uint8_t> on_curve, held, on_border, bare;
+  smooth::Soft soft;
+};
+
+}  // namespace
+
+static Status apply_method(Context& context, const Start& start, const Workpiece& piece,
+                           smooth::Method method, Surface* surface) {
+  Counts* counts = &surface->counts;
+  if (method != smooth::Method::iterated && method != smooth::Method::fair) {
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
+                                   piece.on_border, start.metric, piece.soft,     piece.bare};
+    return smooth::smooth(context, domain, method, {piece.position, piece.normal},
+                          &counts->residual);
+  }
+  smooth::FairReport report;
+  smooth::FairOptions options;
+  if (method == smooth::Method::iterated) options.displacement_steps = 0;
+  const bool planes = start.metric == smooth::Metric::planes;
+  const smooth::FairMesh mesh = {piece.position,
+                                 piece.normal,
+                                 piece.triangle,
+                                 surface->patch.span(),
+                                 piece.on_curve,
+                                 piece.held,
+                                 piece.on_border,
+                                 piece.soft,
+                                 planes ? start.shape : Span<const mesh::TriangleShape>{},
+                                 piece.bare};
+  TRY(smooth::fair(context, mesh, counts->patches, options, &report));
+  counts->residual = report.residual;
+  counts->guarded_patches = report.guarded_patches;
+  counts->iterations = report.iterations;
+  return {};
+}
+
 // Smooths the surface by the chosen method and measures the result.
 static Status smooth_surface(Context& context, const Start& start, const Constraints& constraints,
                              smooth::Method method, Surface* surface) {
   Array<Vec3> normal(context), anchor(context);
-  Counts* counts = &surface->counts;
   TRY(normal.copy(surface->constraint_normal.span()));
   if (!constraints.cutoff.empty()) TRY(anchor.copy(surface->position.span()));
-  const smooth::Soft soft = {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
-                             surface->constraint_normal.span(), counts->spacing};
-  if (method == smooth::Method::iterated || method == smooth::Method::fair) {
-    smooth::FairReport report;
-    smooth::FairOptions options;
-    if (method == smooth::Method::iterated) options.displacement_steps = 0;
-    const bool planes = start.metric == smooth::Metric::planes;
-    const smooth::FairMesh mesh = {surface->position.span(),
-                                   normal.span(),
-                                   surface->triangle.span(),
-                                   surface->patch.span(),
-                                   constraints.on_curve.span(),
-                                   constraints.held.span(),
-                                   start.on_border,
-                                   soft,
-                                   planes ? start.shape : Span<const mesh::TriangleShape>{}};
-    TRY(smooth::fair(context, mesh, counts->patches, options, &report));
-    counts->residual = report.residual;
-    counts->guarded_patches = report.guarded_patches;
-    counts->iterations = report.iterations;
-  } else {
-    const smooth::Domain domain = {surface->triangle.span(),
-                                   start.shape,
-                                   constraints.on_curve.span(),
-                                   constraints.held.span(),
-                                   start.on_border,
-                                   start.metric,
-                                   soft};
-    TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},
-                       &counts->residual));
-  }
+  const Workpiece piece = {surface->position.span(),
+                           normal.span(),
+                           surface->triangle.span(),
+                           constraints.on_curve.span(),
+                           constraints.held.span(),
+                           start.on_border,
+                           {},
+                           {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
+                            surface->constraint_normal.span(), surface->counts.spacing}};
+  TRY(apply_method(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
+}
+
+// The same on the mesh cut open along the creases.
+static Status smooth_creased(Context& context, const Start& start, const Constraints& constraints,
+                             smooth::Method method, network::CreasedMesh* creased,
+                             Surface* surface) {
+  const size_t copies = creased->position.size();
+  Array<Vec3> anchor(context), given_normal(context);
+  Array<double> cutoff(context), share(context);
+  Array<uint8_t> on_curve(context), held(context);
+  TRY(on_curve.resize(copies));
+  TRY(held.resize(copies));
+  if (!constraints.cutoff.empty()) {
+    TRY(cutoff.resize(copies));
+    TRY(share.resize(copies));
+    TRY(anchor.copy(creased->position.span()));
+    TRY(given_normal.copy(creased->normal.span()));
+  }
+  for (size_t c = 0; c < copies; ++c) {
+    const uint32_t v = creased->cut.origin[c];
+    on_curve[c] = constraints.on_curve[v];
+    held[c] = constraints.held[v];
+    if (cutoff.empty()) continue;
+    cutoff[c] = constraints.cutoff[v];
+    share[c] = constraints.share[v];
+  }
+  const Workpiece piece = {
+      creased->position.span(),
+      creased->normal.span(),
+      creased->cut.triangle.span(),
+      on_curve.span(),
+      held.span(),
+      creased->on_border.span(),
+      creased->bare.span(),
+      {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing}};
+  TRY(apply_method(context, start, piece, method, surface));
+  network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
+  TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
+              surface));
+  return network::measure_sides(
+      context, *creased, surface->patch.span(),
+      {surface->normal.span(), surface->mean_curvature.span(), surface->constraint_normal.span(),
+       &surface->counts.normal_deviation, &surface->counts.dihedral});
 }
 
 // Curve vertices hold, or pull where their curve is soft; where curves meet, one that holds wins,
@@ -243,7 +332,9 @@ static Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, con
   TRY(constraints->cutoff.assign(n, -1.0));
   for (size_t e = 0; e < surface.curve_edge.size(); ++e) {
     double& cutoff = constraints->cutoff[surface.curve_edge[e]];
-    const double own = set.soft[surface.curve_edge_curve[e / 2]];
+    const uint32_t curve = surface.curve_edge_curve[e / 2];
+    const bool sharp = !set.sharp.empty() && set.sharp[curve];  // these hold in any case
+    const double own = sharp ? 0.0 : set.soft[curve];
     if (cutoff < 0.0 || own < cutoff) cutoff = own;
   }
   for (size_t v = 0; v < n; ++v) {
@@ -332,9 +423,15 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
       count_topology(patches.vertices, surface->triangle.span(), &topology, counts), nodes.span()));
 
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
-  TRY(smooth_surface(context,
-                     {patches.shape.span(), smooth::Metric::planes, topology.on_border.span()},
-                     constraints, settings.method, surface));
+  const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span()};
+  if (network::has_creases(vertices)) {
+    network::CreasedMesh creased(context);
+    TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
+                                   surface->position.span(), &creased));
+    TRY(smooth_creased(context, start, constraints, settings.method, &creased, surface));
+  } else {
+    TRY(smooth_surface(context, start, constraints, settings.method, surface));
+  }
   return measure_constraints(set, given.span(), surface);
 }
 

@@ -22,6 +22,10 @@ struct CurveSet {
   Span<const uint8_t> closed;    // of each curve
   Span<const uint8_t> boundary;  // of each curve
   Span<const double> soft;       // of each curve: its cutoff length, zero if it holds
+  // Empty where no curve is sharp. A sharp curve's normals are those on its left, zero where they
+  // are not known; so are those on its right.
+  Span<const uint8_t> sharp = {};
+  Span<Vec3> right = {};
 };
 
 struct TriangleSet {

@@ -94,7 +94,8 @@ enum {
   WSK_ERROR_DUPLICATE_SAMPLES = 11,
   /* A normal has zero length. Other lengths are fine: normals are made unit. */
   WSK_ERROR_ZERO_NORMAL = 12,
-  /* The curves, or the constrained vertices, have no normals and the task needs them. */
+  /* The curves, or the constrained vertices, have no normals and the task needs them; or nothing
+     tells the outer side at a node of sharp curves. */
   WSK_ERROR_MISSING_NORMALS = 13,
   /* A vertex index of a triangle is not below the number of vertices. */
   WSK_ERROR_INDEX_OUT_OF_RANGE = 14,
@@ -317,6 +318,17 @@ typedef struct wsk_curve {
   /* How firmly the surface keeps to this curve: 0 as wsk_options.soft says, negative: it holds,
      positive: its own cutoff length. At a node the firmest of its curves decides. */
   double soft;
+  /* Non-zero: the curve is a crease. The surface is smooth on each side of it, not across it, and
+     has a normal on each side: `normals` are those on the left, seen from outside by someone who
+     walks along the curve, `normals_right` those on the right, strides alike. Either may be null:
+     not known; the surface then leaves the curve on that side as it likes, and a patch none of
+     whose normals are known spans its border with little area. Both may be equal: then the surface
+     is smooth across the curve too, but its curvature may jump there (a hemisphere on a cylinder).
+     A boundary curve may be sharp to have no normals. Zero, as memset leaves it: the curve is
+     smooth, `normals` hold on both sides and `normals_right` is not read. */
+  int32_t sharp;
+  const double* normals_right;
+  size_t normal_right_stride;
 } wsk_curve;
 
 /* Surfaces a network of curves.
@@ -330,6 +342,11 @@ typedef struct wsk_curve {
  * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen without
  * folds from the mean of its normals it is triangulated in that plane, else by a triangulation of
  * least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995).
+ *
+ * Where sharp curves meet, the node's normal is the mean of their sides; where some of these are
+ * not known it is estimated from the directions of the curves, outward as the neighbours tell. Round
+ * such a node smoothness is asked between one sharp curve and the next; a sharp curve that ends
+ * where no other goes on fades out there.
  *
  * `options` may be null (defaults); `report` may be null. On success *surface is the result, to be
  * given to wsk_surface_free; on failure it is untouched. */
@@ -378,7 +395,8 @@ typedef struct wsk_surface_view {
   const uint32_t* vertex_curve;     /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
                                    for a free vertex */
   const double*
-      constraint_normals;         /* 3 a vertex: the input's unit normal there, 0 0 0 where free */
+      constraint_normals;         /* 3 a vertex: the input's unit normal there (on a crease the mean
+                                     of those known), 0 0 0 where free or not known */
   const uint32_t* triangles;      /* 3 a triangle, counter-clockwise from outside */
   const uint32_t* triangle_patch; /* 1 a triangle */
   const uint32_t* curve_edges;    /* 2 an edge: the curves as resampled, in their direction */

@@ -24,7 +24,9 @@ INPUT is a network of curves with surface normals:
          each curve a line 0 or 1 (1: boundary) and a line of vertex indices from 0
   .obj   v, vn (one for each v, in the same order) and l, each of which is one curve with any
          number of indices; all else is passed over. Curves after a g or o whose name contains
-         "boundary" (in upper or lower case), up to the next g or o, are boundary curves.
+         "boundary" (in upper or lower case), up to the next g or o, are boundary curves; "sharp"
+         makes them creases, smooth on each side only. A vertex has one vn, creases have two
+         normals: theirs are taken as unknown, and vn holds for the smooth curves that end there.
 Curves meet where they share a vertex. A curve is closed if its last index repeats its first.
 Boundary curves are those where the surface ends. Normals point to the outer side.
 

@@ -36,10 +36,11 @@ static std::vector<wsk_curve> curves_of(const Network& network, const Samples& s
     wsk_curve c = {};
     c.sample_count = curve.vertices.size();
     c.positions = samples.positions.data() + 3 * first;
-    if (!samples.normals.empty()) c.normals = samples.normals.data() + 3 * first;
+    if (!samples.normals.empty() && !curve.sharp) c.normals = samples.normals.data() + 3 * first;
     c.nodes = samples.nodes.data() + first;
     c.closed = curve.closed ? 1 : 0;
     c.boundary = curve.boundary ? 1 : 0;
+    c.sharp = curve.sharp ? 1 : 0;
     curves.push_back(c);
     first += curve.vertices.size();
   }

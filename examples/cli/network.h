@@ -16,7 +16,8 @@ struct NetworkCurve {
   std::vector<uint32_t> vertices;
   bool closed = false;
   bool boundary = false;
-  size_t line = 0;  // of the file, from 1
+  bool sharp = false;  // a crease; without normals, which its vertices have one of only
+  size_t line = 0;     // of the file, from 1
 };
 
 struct Network {

@@ -5,8 +5,8 @@
 //       curves, then for each a line 0 or 1 (1: the surface ends here) and a line of indices from
 //       0.
 // .obj  Wavefront: v, vn (the i-th belongs to the i-th v), l of any length; everything else is
-// passed
-//       over. Curves that stand under a g or o whose name contains "boundary" are boundary curves.
+//       passed over. Curves that stand under a g or o whose name contains "boundary" are boundary
+//       curves, under one with "sharp" creases.
 // In both a curve is closed if its last index repeats its first.
 #pragma once
 

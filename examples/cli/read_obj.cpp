@@ -7,6 +7,7 @@ namespace wireskin_cli {
 struct ObjState {
   Network network;
   bool under_boundary = false;
+  bool under_sharp = false;
   size_t faces = 0;
   size_t freeform_curves = 0;
   size_t normals = 0;
@@ -45,6 +46,7 @@ static void read_polyline(const LineScanner& scanner, ObjState& state) {
   NetworkCurve curve;
   curve.line = scanner.line();
   curve.boundary = state.under_boundary;
+  curve.sharp = state.under_sharp;
   const size_t count = scanner.columns().size();
   if (count < 3) scanner.fail("a curve (l) needs at least two vertex indices");
   for (size_t k = 1; k < count; ++k) {
@@ -56,10 +58,11 @@ static void read_polyline(const LineScanner& scanner, ObjState& state) {
 
 // The latest g or o names what follows.
 static void read_name(const LineScanner& scanner, ObjState& state) {
-  state.under_boundary = false;
+  state.under_boundary = state.under_sharp = false;
   for (size_t k = 1; k < scanner.columns().size(); ++k) {
     const std::string name = lower_case(scanner.columns()[k]);
     if (name.find("boundary") != std::string::npos) state.under_boundary = true;
+    if (name.find("sharp") != std::string::npos) state.under_sharp = true;
   }
 }
 

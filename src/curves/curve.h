@@ -35,6 +35,8 @@ struct Curves {
   Array<Vec3> position, position_moment, normal, normal_moment;
   Array<uint32_t> sample, node;
   size_t room = 0;  // knots that fit without growing
+  // Normals on the right of the curves, see curves/sides.h; empty where no curve is sharp.
+  Array<Vec3> right, right_moment;
 
   explicit Curves(Context& context)
       : start(context),
@@ -45,7 +47,9 @@ struct Curves {
         normal(context),
         normal_moment(context),
         sample(context),
-        node(context) {}
+        node(context),
+        right(context),
+        right_moment(context) {}
   size_t size() const { return start.empty() ? 0 : start.size() - 1; }
   Curve operator[](size_t curve) const;
 };

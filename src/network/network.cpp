@@ -1,6 +1,7 @@
 #include "network/network.h"
 
 #include "base/sort.h"
+#include "curves/sides.h"
 
 namespace wireskin::network {
 
@@ -15,6 +16,10 @@ struct Graph {
   const Segment& segment_of(uint32_t h) const { return segments[h / 2]; }
   uint32_t from(uint32_t h) const { return h % 2 == 0 ? segment_of(h).from : segment_of(h).to; }
   curves::Curve curve_of(uint32_t h) const { return curves[segment_of(h).curve]; }
+  // With the normals on the left of the half-segment.
+  curves::Curve side_of(uint32_t h) const {
+    return h % 2 == 0 ? curve_of(h) : seen_from_right(curves, segment_of(h).curve);
+  }
 };
 
 struct Leaving {
@@ -190,25 +195,27 @@ static void number_cycles(Cycles* cycles) {
   }
 }
 
-// Twice the area that the cycle through h encloses, seen along the sum of its normals; the sign
-// tells a patch, counter-clockwise, from the outside of one.
+// Twice the area that the cycle through h encloses, seen along the sum of its normals (of its
+// nodes' where the curves have none); the sign tells a patch, counter-clockwise, from the outside
+// of one.
 static double signed_area(const Graph& graph, Span<const uint32_t> next, uint32_t h) {
   const Segment& first = graph.segment_of(h);
   const Vec3 base = graph.curves[first.curve].position.value[first.first_knot];
-  Vec3 area, normals;
+  Vec3 area, normals, nodes;
   uint32_t g = h;
   do {
     const Segment& segment = graph.segment_of(g);
-    const curves::Curve curve = graph.curve_of(g);
+    const curves::Curve curve = graph.side_of(g);
     const double sign = g % 2 == 0 ? 1.0 : -1.0;
     for (uint32_t k = segment.first_knot; k < segment.last_knot; ++k) {
       const Vec3 a = curve.position.value[k] - base, b = curve.position.value[k + 1] - base;
       area += sign * cross(a, b);
       normals += curve.normal.value[k];
     }
+    if (segment.from != k_none) nodes += graph.nodes[graph.from(g)].normal;
     g = next[g];
   } while (g != h);
-  return dot(area, normals);
+  return dot(area, dot(normals, normals) > 0.0 ? normals : nodes);
 }
 
 // Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for

@@ -4,14 +4,42 @@
 
 namespace wireskin::network {
 
+static uint32_t curve_of_sample(const SampleNumbers& samples, uint32_t sample) {
+  uint32_t low = 0, high = static_cast<uint32_t>(samples.start.size()) - 1;
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    (samples.start[middle] <= sample ? low : high) = middle;
+  }
+  return low;
+}
+
 static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,
                       uint32_t sample) {
   Place place;
-  place.curve = 0;
-  while (samples.start[place.curve + 1] <= sample) ++place.curve;
+  place.curve = curve_of_sample(samples, sample);
   place.sample = sample - samples.start[place.curve];
   place.node = samples.number[sample];
   return fail(code, sentence, place);
+}
+
+// The normal of a node of sharp curves: normals differ across these, so none opposes another here.
+static void merge_sides(const SampleNumbers& samples, Span<const uint32_t> members, Node* node) {
+  Vec3 sharp, smooth;
+  for (uint32_t sample : members) {
+    if (!samples.sharp[curve_of_sample(samples, sample)]) {
+      smooth += samples.normal[sample];
+      continue;
+    }
+    const Vec3 &left = samples.normal[sample], &right = samples.right[sample];
+    node->crease = true;
+    node->certain = node->certain && dot(left, left) > 0.0 && dot(right, right) > 0.0;
+    sharp += left + right;
+  }
+  if (!node->crease) return;
+  // Sides that nearly cancel out have no mean that tells anything.
+  constexpr double k_least_sum = 1e-3;
+  if (!(length(sharp) > k_least_sum)) node->certain = false;
+  node->normal = unit(node->certain ? sharp : sharp + smooth);
 }
 
 // Makes one node of the samples that carry the same number.
@@ -28,6 +56,8 @@ static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, 
     sum += samples.normal[sample];
   }
   node->normal = unit(sum);
+  if (!samples.sharp.empty()) merge_sides(samples, members, node);
+  if (node->crease) return {};
   for (uint32_t sample : members) {
     if (!(dot(samples.normal[sample], node->normal) > 0.0)) {
       return fail_at(Code::inconsistent_normals,

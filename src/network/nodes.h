@@ -3,7 +3,9 @@
 // In: for every sample the number the caller gave it (k_none: none). Numbers that occur at two
 // samples or more are nodes, whichever curves those belong to. Out: the nodes in ascending order of
 // their numbers and the node of each sample. A node has the position of its first sample (the
-// others must agree with it) and the mean of its samples' normals. O(s log s).
+// others must agree with it) and the mean of its samples' normals. Where sharp curves pass, normals
+// may differ: there the mean is that of the sharp curves' sides, or of all normals where some side is
+// not known. O(s log s).
 #pragma once
 
 #include "base/array.h"
@@ -13,8 +15,10 @@ namespace wireskin::network {
 
 struct Node {
   Vec3 position;
-  Vec3 normal;      // unit
-  uint32_t number;  // the caller's
+  Vec3 normal;          // unit; zero where no normal is known yet
+  uint32_t number;      // the caller's
+  bool crease = false;  // sharp curves pass here
+  bool certain = true;  // all normals here are known
 };
 
 // The samples of all curves one after the other; curve c has start[c] .. start[c + 1).
@@ -22,7 +26,9 @@ struct SampleNumbers {
   Span<const uint32_t> start;
   Span<const uint32_t> number;
   Span<const Vec3> position;
-  Span<const Vec3> normal;  // unit
+  Span<const Vec3> normal;         // unit
+  Span<const uint8_t> sharp = {};  // of each curve; empty: none
+  Span<const Vec3> right = {};     // unit, of sharp curves; normals may be zero there: unknown
 };
 
 // `tolerance`: how far samples of one node may lie apart. Fails with node_mismatch or

@@ -4,6 +4,7 @@
 #include "mesh/loop_mesh.h"
 #include "network/border.h"
 #include "network/enclosure.h"
+#include "network/side_normals.h"
 #include "planar/polygon_mesh.h"
 
 namespace wireskin::network {
@@ -35,7 +36,7 @@ struct Builder {
 struct PatchScratch {
   Array<uint32_t> border;
   Array<Vec2> polygon;
-  Array<Vec3> loop, loop_normal;
+  Array<Vec3> loop, loop_normal;  // along the border; normals are zero where not known
   planar::PolygonMesh planar;
   mesh::LoopMesh spatial;
   Array<Vec3> place;
@@ -106,14 +107,15 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
 static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& enclosure,
                             double spacing, double least_facing, PatchScratch* scratch) {
   Plane plane;
-  TRY(fit_plane(vertices, scratch->border.span(), &plane));
+  TRY(fit_plane(vertices, scratch->border.span(), scratch->loop_normal.span(), &plane));
   const size_t n = scratch->border.size();
   TRY(scratch->polygon.resize(n));
   double facing = 1.0;
   for (size_t i = 0; i < n; ++i) {
     scratch->polygon[i] = plane.project(scratch->loop[i]);
     const double cosine = dot(scratch->loop_normal[i], plane.normal);
-    if (cosine < facing) facing = cosine;
+    const bool known = scratch->loop_normal[i] != Vec3{};
+    if (known && cosine < facing) facing = cosine;
   }
   TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
   if (facing < least_facing) {
@@ -145,12 +147,11 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
                          const Enclosure& enclosure, double least_facing, uint32_t patch,
                          PatchScratch* scratch, Builder* builder) {
   TRY(border_of_patch(network, vertices, patch, &scratch->border));
+  TRY(normals_of_border(network, vertices, patch, &scratch->loop_normal));
   const size_t n = scratch->border.size();
   TRY(scratch->loop.resize(n));
-  TRY(scratch->loop_normal.resize(n));
   for (size_t i = 0; i < n; ++i) {
     scratch->loop[i] = vertices.position[scratch->border[i]];
-    scratch->loop_normal[i] = vertices.normal[scratch->border[i]];
   }
   const double spacing = mean_edge(vertices, scratch->border.span());
   const Status status = mesh_in_plane(vertices, enclosure, spacing, least_facing, scratch);

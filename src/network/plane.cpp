@@ -34,14 +34,32 @@ Status border_of_patch(const Network& network, const CurveVertices& vertices, ui
   return {};
 }
 
-Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Plane* plane) {
-  Vec3 positions, normals;
-  const double share = 1.0 / static_cast<double>(border.size());
-  for (uint32_t v : border) {
-    positions += share * vertices.position[v];
-    normals += share * vertices.normal[v];
+// Twice the vector area of the border.
+static Vec3 vector_area(const CurveVertices& vertices, Span<const uint32_t> border,
+                        const Vec3& base) {
+  Vec3 area;
+  for (size_t i = 0; i < border.size(); ++i) {
+    const uint32_t next = border[i + 1 == border.size() ? 0 : i + 1];
+    area += cross(vertices.position[border[i]] - base, vertices.position[next] - base);
   }
-  if (!(length(normals) >= k_least_mean_normal)) {
+  return area;
+}
+
+Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border,
+                 Span<const Vec3> normal, Plane* plane) {
+  Vec3 positions, normals;
+  size_t known = 0;
+  const double share = 1.0 / static_cast<double>(border.size());
+  for (size_t i = 0; i < border.size(); ++i) {
+    positions += share * vertices.position[border[i]];
+    normals += share * normal[i];
+    known += normal[i] != Vec3{};
+  }
+  if (known == 0) {
+    normals = unit(vector_area(vertices, border, positions));
+    known = border.size();
+  }
+  if (!(length(normals) >= k_least_mean_normal * share * static_cast<double>(known))) {
     return fail(Code::patch_without_plane,
                 "the normals of the patch's border cancel out, so it has no plane");
   }

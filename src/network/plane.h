@@ -1,4 +1,5 @@
-// The plane of a patch: through the mean position of its border, across the mean normal.
+// The plane of a patch: through the mean position of its border, across the mean normal; across the
+// vector area of the border where it has no normals.
 //
 // In: the vertices of a cycle in order. Out: plane coordinates, so that a border that runs
 // counter-clockwise seen from the tip of the normal does so in the plane. The first axis points
@@ -23,7 +24,9 @@ Status border_of_patch(const Network& network, const CurveVertices& vertices, ui
                        Array<uint32_t>* border);
 
 // Fails with patch_without_plane (no place) where the normals cancel out.
-Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Plane* plane);
+// `normals`: of the patch along its border, zero where they are not known.
+Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border,
+                 Span<const Vec3> normals, Plane* plane);
 
 // Rounds plane coordinates, and a spacing, to a grid of 2^-32 of the polygon's extent. Which
 // triangles a patch gets then does not hang on the last bits of its border, which depend on the

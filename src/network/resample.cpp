@@ -1,6 +1,8 @@
 #include "network/resample.h"
 
 #include "base/sort.h"
+#include "curves/sides.h"
+#include "network/side_normals.h"
 
 namespace wireskin::network {
 
@@ -85,7 +87,7 @@ static Status place_vertices(const curves::Curves& curves, const Network& networ
     const double part = static_cast<double>(k) / static_cast<double>(edges);
     const curves::CurvePoint point =
         point_at(curve, segment.first_knot, segment.last_knot, from + part * length);
-    if (!(dot(point.normal, point.normal) > 0.5)) {
+    if (has_normals(curve) && !(dot(point.normal, point.normal) > 0.5)) {
       return fail_at_sample(Code::inconsistent_normals,
                             "the normals of neighbouring samples cancel out", segment.curve,
                             curve.sample[segment.first_knot]);
@@ -109,7 +111,7 @@ Status resample(const curves::Curves& curves, Span<const Node> nodes, const Netw
     TRY(place_vertices(curves, network, s, vertices));
     if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
   }
-  return {};
+  return curves.right.empty() ? Status{} : resample_sides(curves, network, vertices);
 }
 
 }  // namespace wireskin::network

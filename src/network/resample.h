@@ -19,9 +19,20 @@ struct CurveVertices {
   Array<uint32_t> first;  // of each segment: its first inner vertex
   uint32_t nodes = 0;     // the first vertices
   double length = 0.0;    // of all segments together
+  // Normals on the left and on the right at vertex k of segment s: entry side_start[s] + k. Zero
+  // where they are not known. Empty where no curve is sharp.
+  Array<uint32_t> side_start;
+  Array<Vec3> left, right;
 
   explicit CurveVertices(Context& context)
-      : position(context), normal(context), curve(context), edges(context), first(context) {}
+      : position(context),
+        normal(context),
+        curve(context),
+        edges(context),
+        first(context),
+        side_start(context),
+        left(context),
+        right(context) {}
 };
 
 // Fails with too_large, or with inconsistent_normals where opposite normals cancel out on a curve.

@@ -7,6 +7,9 @@
 
 namespace wireskin::smooth {
 
+// The weight of the pull of h towards zero at bare vertices.
+static constexpr double k_bare_pull = 1e-6;
+
 namespace {
 
 // The mesh cut open along the curves: vertices on curves have a copy in every patch.
@@ -130,7 +133,7 @@ static void sort_column(size_t first, sparse::Csc* matrix) {
 // The matrix of the least squares problem: first the rows of the split mesh, then one row a vertex
 // for the Laplacian of h, then one a vertex for the springs. Columns are the unknowns, u and h of a
 // vertex next to each other.
-Status MinimumVariation::make_rows(const sparse::Csc& split_laplacian,
+Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
                                    Span<const double> split_area, Span<const uint32_t> origin,
                                    const sparse::Csc& laplacian, sparse::Csc* rows) const {
   const uint32_t n = laplacian.cols, split = split_laplacian.cols;
@@ -154,7 +157,8 @@ Status MinimumVariation::make_rows(const sparse::Csc& split_laplacian,
       rows->start[column++] = static_cast<uint32_t>(first);
       for (uint32_t copy = first_copy; copy < end_copy; ++copy) {
         for (uint32_t p = split_laplacian.start[copy]; p < split_laplacian.start[copy + 1]; ++p) {
-          add(split_laplacian.row[p], split_laplacian.value[p]);
+          const uint32_t row = split_laplacian.row[p];
+          if (!input.is_bare(origin[row])) add(row, split_laplacian.value[p]);
         }
       }
       sort_column(first, rows);
@@ -183,10 +187,15 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
     }
     weight[r] = 1.0 / split.area[r];
     target[r] = -dot(sum, split.normal[r]);
+    if (input.is_bare(split.origin[r])) {
+      weight[r] *= k_bare_pull;
+      target[r] = 0.0;
+    }
   }
   const uint32_t n = static_cast<uint32_t>(area.size());
   for (uint32_t v = 0; v < n; ++v) {
-    weight[split.vertices + v] = input.on_border[v] ? 0.0 : length2 * length2 / area[v];
+    const bool left_out = input.on_border[v] && !input.is_bare(v);
+    weight[split.vertices + v] = left_out ? 0.0 : length2 * length2 / area[v];
     target[split.vertices + v] = 0.0;
     const uint32_t r = split.vertices + n + v;
     const bool pulled = input.soft.any() && input.soft.cutoff[v] > 0.0;
@@ -268,7 +277,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   SplitMesh split(context_);
   mesh::vertex_normals(input.position, input.triangle, normal);
   for (uint32_t v = 0; v < n; ++v) {
-    if (input.on_curve[v]) normal[v] = input.curve_normal[v];
+    if (input.on_curve[v] && !input.is_bare(v)) normal[v] = input.curve_normal[v];
   }
   TRY(mesh::triangle_shapes(input.position, input.triangle, &shapes));
   TRY(make_split_mesh(input, normal, shapes.span(), &split));
@@ -276,7 +285,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   mesh::mixed_voronoi_areas(input.triangle, shapes.span(), area.span());
   TRY(mesh::cotangent_laplacian(n, input.triangle, shapes.span(), &laplacian));
   TRY(number_unknowns(input.held));
-  TRY(make_rows(split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
+  TRY(make_rows(input, split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
   TRY(weight.resize(rows.rows));
   TRY(target.resize(rows.rows));
   make_targets(input, split, area.span(), normal, weight.span(), target.span());

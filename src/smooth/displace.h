@@ -9,9 +9,12 @@
 //   g_r = -<(L v)_r + c_r, n_i(r)>,
 // where c_r is the conormal of the patch's rim, made from the curve's positions and the given
 // normals: that is how these normals enter. Split rows are essential, merged ones never see them.
-// On open borders the rows of the last term are left out. One factorisation of size 2 n. Source: H.
-// Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992 (minimum variation
-// surfaces), linearised along the normals.
+// On open borders the rows of the last term are left out. Where a border's normal is not known it
+// has no conormal: there the row of the last term stays, as the natural condition, and the first
+// one's place is taken by a slight pull of h towards zero, without which a patch of no known normal
+// at all could have any constant h. One factorisation of size 2 n. Source: H. Moreton, C. Sequin,
+// "Functional Optimization for Fair Surface Design", 1992 (minimum variation surfaces), linearised
+// along the normals.
 #pragma once
 
 #include "mesh/operators.h"
@@ -30,6 +33,9 @@ struct DisplaceInput {
   Span<const uint8_t> on_border;
   double smoothing_length = 0.0;  // c l above
   Soft soft = {};                 // adds (c l)^4 share / cutoff^7 (u - <a - v, n>)^2
+  Span<const uint8_t> bare = {};  // held, on a border, normal not known; empty: none
+
+  bool is_bare(uint32_t v) const { return !bare.empty() && bare[v]; }
 };
 
 // Solves one step after the other. The systems of later steps differ little from the first, so its
@@ -48,9 +54,9 @@ class MinimumVariation {
 
  private:
   Status number_unknowns(Span<const uint8_t> held);
-  Status make_rows(const sparse::Csc& split_laplacian, Span<const double> split_area,
-                   Span<const uint32_t> origin, const sparse::Csc& laplacian,
-                   sparse::Csc* rows) const;
+  Status make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
+                   Span<const double> split_area, Span<const uint32_t> origin,
+                   const sparse::Csc& laplacian, sparse::Csc* rows) const;
   Status solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
                              Span<const double> rhs, Span<double> solution, bool* solved);
   Status solve_by_new_factor(const sparse::Csc& rows, Span<const double> weight,

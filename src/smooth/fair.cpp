@@ -59,7 +59,7 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
   report->flips += flips;
   TRY(mesh::triangle_shapes(mesh.position, mesh.triangle, shapes));
   const Domain domain = {mesh.triangle,  shapes->span(), mesh.on_curve, mesh.held,
-                         mesh.on_border, Metric::space,  mesh.soft};
+                         mesh.on_border, Metric::space,  mesh.soft,     mesh.bare};
   return smooth(context, domain, Method::stanko, {mesh.position, mesh.normal}, &report->residual);
 }
 
@@ -134,9 +134,9 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
   report->flips += flips;
   TRY(direction.resize(n));
   TRY(step.resize(n));
-  const DisplaceInput input = {mesh.position,  curve_normal,     mesh.triangle,
-                               mesh.patch,     mesh.on_curve,    mesh.held,
-                               mesh.on_border, smoothing_length, mesh.soft};
+  const DisplaceInput input = {mesh.position, curve_normal, mesh.triangle,  mesh.patch,
+                               mesh.on_curve, mesh.held,    mesh.on_border, smoothing_length,
+                               mesh.soft,     mesh.bare};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {

@@ -26,6 +26,7 @@ struct FairMesh {
   Span<const uint8_t> on_border;
   Soft soft;
   Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
+  Span<const uint8_t> bare = {};                // held, on a border, normal not known; empty: none
 };
 
 struct FairOptions {

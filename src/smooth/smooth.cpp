@@ -30,7 +30,8 @@ static Status add_conormals(Context& context, const Domain& domain, const Field&
 static void row_weights(const Domain& domain, bool border_rows, Span<const double> area,
                         Span<double> weight) {
   for (size_t v = 0; v < weight.size(); ++v) {
-    weight[v] = domain.on_border[v] && !border_rows ? 0.0 : 1.0 / area[v];
+    const bool bare = !domain.bare.empty() && domain.bare[v];
+    weight[v] = bare || (domain.on_border[v] && !border_rows) ? 0.0 : 1.0 / area[v];
   }
 }
 
@@ -65,12 +66,34 @@ static Status penalties(const Domain& domain, int order, bool normals, Array<dou
   return {};
 }
 
+// Bare vertices take the normal that the surface has there by itself: the current one in space, the
+// biharmonic one over the planes.
+static Status estimate_bare_normals(Context& context, const Domain& domain, const Field& field,
+                                    Guided* guided, double* residual) {
+  Array<Vec3> normal(context);
+  Array<double> penalty(context);
+  TRY(normal.resize(field.normal.size()));
+  if (domain.metric == Metric::planes) {
+    TRY(penalties(domain, 2, false, &penalty));
+    TRY(guided->system.factor(guided->weight.span(), penalty.span()));
+    TRY(guided->system.solve({}, domain.soft.position, field.position, residual));
+  }
+  mesh::vertex_normals(field.position, domain.triangle, normal.span());
+  for (size_t v = 0; v < normal.size(); ++v) {
+    if (domain.bare[v]) field.normal[v] = normal[v];
+  }
+  return {};
+}
+
 // Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor
 // serves both; soft ones pull normals and positions by springs of their own.
 static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
                         double* residual) {
   const size_t n = field.position.size();
   Array<double> penalty(context);
+  if (!domain.bare.empty()) {
+    TRY(estimate_bare_normals(context, domain, field, guided, residual));
+  }
   TRY(guided->conormal.assign(n, Vec3{}));
   TRY(guided->target.resize(n));
   TRY(penalties(domain, 2, true, &penalty));

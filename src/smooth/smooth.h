@@ -11,7 +11,8 @@
 //
 // Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its
 // row is left out. In space it is known up to the outer conormal c of the border (L v + c = -2 h m
-// n), so the row stays, with c taken from the positions and normals given on the border. Source: T.
+// n), so the row stays, with c taken from the positions and normals given on the border; where none
+// is given there is no c, and the row is left out. Source: T.
 // Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, sections 3.4 and 4.2.
 #pragma once
 
@@ -39,6 +40,9 @@ struct Domain {
   Span<const uint8_t> on_border;          // of each vertex
   Metric metric = Metric::planes;
   Soft soft = {};
+  // Held vertices on open borders whose normal is not known (any value): that of the surface as far
+  // as it is found stands for it. Empty: none.
+  Span<const uint8_t> bare = {};
 };
 
 // Position and normal of every vertex: in, those of the held ones; out, all.

@@ -52,8 +52,14 @@ Result build(const networks::Network& network, wsk_method method, double spacing
   std::vector<wsk_curve> curves;
   for (size_t c = 0; c < network.curves.size(); ++c) {
     const auto& curve = network.curves[c];
-    curves.push_back({curve.vertices.size(), positions[c][0].data(), 0, normals[c][0].data(), 0,
-                      curve.vertices.data(), curve.closed, curve.boundary, 0.0});
+    wsk_curve one = {};
+    one.sample_count = curve.vertices.size();
+    one.positions = positions[c][0].data();
+    one.normals = normals[c][0].data();
+    one.nodes = curve.vertices.data();
+    one.closed = curve.closed;
+    one.boundary = curve.boundary;
+    curves.push_back(one);
   }
   const wsk_options options = options_for(method, spacing);
   Result result;

@@ -50,6 +50,18 @@ TEST_CASE("curves under a name with boundary, until the next name") {
   CHECK(boundary == std::vector<bool>{false, true, true, false, true, false});
 }
 
+TEST_CASE("curves under a name with sharp, until the next name") {
+  const Network network = read_obj(
+      "f.obj", k_vertices + "l 1 2\no Sharp_edges\nl 2 3\ng sharp boundary\nl 1 3\ng\nl 1 2\n");
+  std::vector<bool> sharp, boundary;
+  for (const NetworkCurve& curve : network.curves) {
+    sharp.push_back(curve.sharp);
+    boundary.push_back(curve.boundary);
+  }
+  CHECK(sharp == std::vector<bool>{false, true, true, false});
+  CHECK(boundary == std::vector<bool>{false, false, true, false});
+}
+
 TEST_CASE("every complaint about a line names it") {
   CHECK(complaint("v 1 2\nl 1 1\n") == "f.obj:1: 2 coordinates where 3 are needed");
   CHECK(complaint("v 1 2 3\nvn 0 0\n") == "f.obj:2: 2 components of a normal where 3 are needed");

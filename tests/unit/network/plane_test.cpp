@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "network/side_normals.h"
 #include "support/curve_nets.h"
 
 using namespace unit;
@@ -25,7 +26,7 @@ struct Fit {
     must(vertices.position.copy(view(positions)));
     must(vertices.normal.copy(view(normals)));
     for (uint32_t v = 0; v < positions.size(); ++v) border.push_back(v);
-    status = fit_plane(vertices, view(border), &plane);
+    status = fit_plane(vertices, view(border), vertices.normal.span(), &plane);
   }
 };
 
@@ -84,7 +85,9 @@ TEST_CASE("plane: borders run counter-clockwise along their half-segments") {
     must(border_of_patch(s.network, s.vertices, p, &border));
     CHECK(border.size() == 24);
     Plane plane;
-    must(fit_plane(s.vertices, border.span(), &plane));
+    Array<Vec3> normal(s.heap.context);
+    must(normals_of_border(s.network, s.vertices, p, &normal));
+    must(fit_plane(s.vertices, border.span(), normal.span(), &plane));
     check_frame(plane);
     double area = 0.0;
     for (size_t i = 0; i < border.size(); ++i) {
