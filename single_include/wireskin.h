@@ -100,7 +100,8 @@ enum {
   WSK_ERROR_DUPLICATE_SAMPLES = 11,
   /* A normal has zero length. Other lengths are fine: normals are made unit. */
   WSK_ERROR_ZERO_NORMAL = 12,
-  /* The curves, or the constrained vertices, have no normals and the task needs them. */
+  /* The curves, or the constrained vertices, have no normals and the task needs them; or nothing
+     tells the outer side at a node of sharp curves. */
   WSK_ERROR_MISSING_NORMALS = 13,
   /* A vertex index of a triangle is not below the number of vertices. */
   WSK_ERROR_INDEX_OUT_OF_RANGE = 14,
@@ -113,9 +114,10 @@ enum {
   WSK_ERROR_INCONSISTENT_NORMALS = 17,
   /* The normal of a node is parallel to a curve through it: it cannot be the surface's. */
   WSK_ERROR_TANGENT_NORMAL = 18,
-  /* A patch whose normals cancel out, or that is seen edge-on or from behind along their mean. */
+  /* The border of a patch runs clockwise round its normals: the outside of an open surface whose
+     border is not tagged as boundary. */
   WSK_ERROR_PATCH_WITHOUT_PLANE = 19,
-  /* The border of a patch crosses or touches itself when projected to the patch's plane. */
+  /* The border of a patch crosses itself in space, or encloses nothing. */
   WSK_ERROR_PATCH_FOLDED = 20,
   /* A patch bounded by several loops, or by a curve passed on both sides. */
   WSK_ERROR_PATCH_SEVERAL_LOOPS = 21,
@@ -322,6 +324,17 @@ typedef struct wsk_curve {
   /* How firmly the surface keeps to this curve: 0 as wsk_options.soft says, negative: it holds,
      positive: its own cutoff length. At a node the firmest of its curves decides. */
   double soft;
+  /* Non-zero: the curve is a crease. The surface is smooth on each side of it, not across it, and
+     has a normal on each side: `normals` are those on the left, seen from outside by someone who
+     walks along the curve, `normals_right` those on the right, strides alike. Either may be null:
+     not known; the surface then leaves the curve on that side as it likes, and a patch none of
+     whose normals are known spans its border with little area. Both may be equal: then the surface
+     is smooth across the curve too, but its curvature may jump there (a hemisphere on a cylinder).
+     A boundary curve may be sharp to have no normals. Zero, as memset leaves it: the curve is
+     smooth, `normals` hold on both sides and `normals_right` is not read. */
+  int32_t sharp;
+  const double* normals_right;
+  size_t normal_right_stride;
 } wsk_curve;
 
 /* Surfaces a network of curves.
@@ -332,8 +345,14 @@ typedef struct wsk_curve {
  * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where two curves end at a node.
  *
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
- * tip of the node's normal. Each patch must be seen without folds from the mean of its normals and
- * be bounded by one loop.
+ * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen without
+ * folds from the mean of its normals it is triangulated in that plane, else by a triangulation of
+ * least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995).
+ *
+ * Where sharp curves meet, the node's normal is the mean of their sides; where some of these are
+ * not known it is estimated from the directions of the curves, outward as the neighbours tell. Round
+ * such a node smoothness is asked between one sharp curve and the next; a sharp curve that ends
+ * where no other goes on fades out there.
  *
  * `options` may be null (defaults); `report` may be null. On success *surface is the result, to be
  * given to wsk_surface_free; on failure it is untouched. */
@@ -382,7 +401,8 @@ typedef struct wsk_surface_view {
   const uint32_t* vertex_curve;     /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
                                    for a free vertex */
   const double*
-      constraint_normals;         /* 3 a vertex: the input's unit normal there, 0 0 0 where free */
+      constraint_normals;         /* 3 a vertex: the input's unit normal there (on a crease the mean
+                                     of those known), 0 0 0 where free or not known */
   const uint32_t* triangles;      /* 3 a triangle, counter-clockwise from outside */
   const uint32_t* triangle_patch; /* 1 a triangle */
   const uint32_t* curve_edges;    /* 2 an edge: the curves as resampled, in their direction */
@@ -1433,7 +1453,8 @@ inline double spring(double share, double cutoff, int order) {
 /* */
 /* Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its */
 /* row is left out. In space it is known up to the outer conormal c of the border (L v + c = -2 h m */
-/* n), so the row stays, with c taken from the positions and normals given on the border. Source: T. */
+/* n), so the row stays, with c taken from the positions and normals given on the border; where none */
+/* is given there is no c, and the row is left out. Source: T. */
 /* Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, sections 3.4 and 4.2. */
 
 namespace wireskin::smooth {
@@ -1457,6 +1478,9 @@ struct Domain {
   Span<const uint8_t> on_border;          /* of each vertex */
   Metric metric = Metric::planes;
   Soft soft = {};
+  /* Held vertices on open borders whose normal is not known (any value): that of the surface as far */
+  /* as it is found stands for it. Empty: none. */
+  Span<const uint8_t> bare = {};
 };
 
 /* Position and normal of every vertex: in, those of the held ones; out, all. */
@@ -1491,6 +1515,10 @@ struct CurveSet {
   Span<const uint8_t> closed;    /* of each curve */
   Span<const uint8_t> boundary;  /* of each curve */
   Span<const double> soft;       /* of each curve: its cutoff length, zero if it holds */
+  /* Empty where no curve is sharp. A sharp curve's normals are those on its left, zero where they */
+  /* are not known; so are those on its right. */
+  Span<const uint8_t> sharp = {};
+  Span<Vec3> right = {};
 };
 
 struct TriangleSet {
@@ -1642,6 +1670,8 @@ struct Curves {
   Array<Vec3> position, position_moment, normal, normal_moment;
   Array<uint32_t> sample, node;
   size_t room = 0;  /* knots that fit without growing */
+  /* Normals on the right of the curves, see curves/sides.h; empty where no curve is sharp. */
+  Array<Vec3> right, right_moment;
 
   explicit Curves(Context& context)
       : start(context),
@@ -1652,7 +1682,9 @@ struct Curves {
         normal(context),
         normal_moment(context),
         sample(context),
-        node(context) {}
+        node(context),
+        right(context),
+        right_moment(context) {}
   size_t size() const { return start.empty() ? 0 : start.size() - 1; }
   Curve operator[](size_t curve) const;
 };
@@ -1705,6 +1737,37 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
 
 }  /* namespace wireskin::curves */
 /* ======== end src/curves/distance.h ======== */
+
+/* ======== begin src/curves/sides.h ======== */
+/* Sharp curves have a normal field on each side: this one fits the fields on the right to curves */
+/* whose positions and left normals are fitted already. */
+/* */
+/* In: curves, the samples' normals on the right (unit; zero along a whole curve: not known). Out: */
+/* Curves::right at every knot, with its moments; smooth curves get their own normals there, so that */
+/* a walk along any curve finds the normals of either side. O(knots). */
+
+namespace wireskin::curves {
+
+/* Curve c has the samples start[c] .. start[c + 1); sharp[c]: it has normals of its own there. */
+struct RightSamples {
+  Span<const uint32_t> start;
+  Span<const Vec3> normal;
+  Span<const uint8_t> sharp;
+};
+
+Status fit_right_normals(const RightSamples& samples, Curves* curves);
+
+/* The curve with the normals of its right side in place of those of its left; the curve itself */
+/* where no curve is sharp. */
+Curve seen_from_right(const Curves& curves, size_t curve);
+
+/* Whether the curve has normals: they are known at all of its knots or at none. */
+inline bool has_normals(const Curve& curve) {
+  return dot(curve.normal.value[0], curve.normal.value[0]) > 0.0;
+}
+
+}  /* namespace wireskin::curves */
+/* ======== end src/curves/sides.h ======== */
 
 /* ======== begin src/mesh/care.h ======== */
 /* Keeping a moving mesh good without changing its shape: intrinsic-Delaunay edge flips in space, */
@@ -1764,6 +1827,31 @@ Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const 
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/curvature.h ======== */
+
+/* ======== begin src/mesh/cut.h ======== */
+/* A mesh cut open along some of its edges: every vertex has a copy in each sector of its fan */
+/* between two cut edges, so that the sides of a crease no longer know of each other. */
+/* */
+/* In: a manifold mesh and its marked half-edges (an edge counts when both of its half-edges are */
+/* marked). Out: triangles over the copies, in the same order, and the vertex each copy came from. A */
+/* vertex of one sector keeps its number (the end of a cut inside the mesh does); one copy of each */
+/* other vertex keeps it too, the rest follow behind. O(triangles). */
+
+namespace wireskin::mesh {
+
+struct Cut {
+  Array<uint32_t> triangle;
+  Array<uint32_t> origin;  /* of each copy */
+
+  explicit Cut(Context& context) : triangle(context), origin(context) {}
+  uint32_t vertices() const { return static_cast<uint32_t>(origin.size()); }
+};
+
+Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint8_t> marked,
+                Cut* cut);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/cut.h ======== */
 
 /* ======== begin src/mesh/loop_mesh.h ======== */
 /* A triangle mesh of little area within a closed loop in space: what a patch starts from where its */
@@ -1961,20 +2049,40 @@ void sort(Span<T> values, const Less& less) {
 }  /* namespace wireskin */
 /* ======== end src/base/sort.h ======== */
 
+/* ======== begin src/network/border.h ======== */
+/* Borders that no surface can have, sought where the plane of a patch fails: those that cross */
+/* themselves in space, and those that run clockwise round their own normals, as the outside of an */
+/* open surface does whose border is not tagged. */
+/* */
+/* In: the positions and unit normals of a border in order. Out: a status without place. O(n^2), */
+/* with cheap rejections. */
+
+namespace wireskin::network {
+
+/* Fails with patch_folded or patch_without_plane. */
+Status check_border(Span<const Vec3> position, Span<const Vec3> normal);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/border.h ======== */
+
 /* ======== begin src/network/nodes.h ======== */
 /* Nodes: the points that several curves share. */
 /* */
 /* In: for every sample the number the caller gave it (k_none: none). Numbers that occur at two */
 /* samples or more are nodes, whichever curves those belong to. Out: the nodes in ascending order of */
 /* their numbers and the node of each sample. A node has the position of its first sample (the */
-/* others must agree with it) and the mean of its samples' normals. O(s log s). */
+/* others must agree with it) and the mean of its samples' normals. Where sharp curves pass, normals */
+/* may differ: there the mean is that of the sharp curves' sides, or of all normals where some side is */
+/* not known. O(s log s). */
 
 namespace wireskin::network {
 
 struct Node {
   Vec3 position;
-  Vec3 normal;      /* unit */
-  uint32_t number;  /* the caller's */
+  Vec3 normal;          /* unit; zero where no normal is known yet */
+  uint32_t number;      /* the caller's */
+  bool crease = false;  /* sharp curves pass here */
+  bool certain = true;  /* all normals here are known */
 };
 
 /* The samples of all curves one after the other; curve c has start[c] .. start[c + 1). */
@@ -1982,7 +2090,9 @@ struct SampleNumbers {
   Span<const uint32_t> start;
   Span<const uint32_t> number;
   Span<const Vec3> position;
-  Span<const Vec3> normal;  /* unit */
+  Span<const Vec3> normal;         /* unit */
+  Span<const uint8_t> sharp = {};  /* of each curve; empty: none */
+  Span<const Vec3> right = {};     /* unit, of sharp curves; normals may be zero there: unknown */
 };
 
 /* `tolerance`: how far samples of one node may lie apart. Fails with node_mismatch or */
@@ -2064,9 +2174,20 @@ struct CurveVertices {
   Array<uint32_t> first;  /* of each segment: its first inner vertex */
   uint32_t nodes = 0;     /* the first vertices */
   double length = 0.0;    /* of all segments together */
+  /* Normals on the left and on the right at vertex k of segment s: entry side_start[s] + k. Zero */
+  /* where they are not known. Empty where no curve is sharp. */
+  Array<uint32_t> side_start;
+  Array<Vec3> left, right;
 
   explicit CurveVertices(Context& context)
-      : position(context), normal(context), curve(context), edges(context), first(context) {}
+      : position(context),
+        normal(context),
+        curve(context),
+        edges(context),
+        first(context),
+        side_start(context),
+        left(context),
+        right(context) {}
 };
 
 /* Fails with too_large, or with inconsistent_normals where opposite normals cancel out on a curve. */
@@ -2080,8 +2201,108 @@ uint32_t segment_vertex(const Network& network, const CurveVertices& vertices, u
 }  /* namespace wireskin::network */
 /* ======== end src/network/resample.h ======== */
 
+/* ======== begin src/network/patch_mesh.h ======== */
+/* From cycles to one mesh: every cycle is projected to its plane, triangulated there, and the */
+/* patches are joined along the curves. */
+/* */
+/* In: the vertices on the curves and the cycles. Out: triangles over the curve vertices (first) and */
+/* the free vertices, each triangle with its shape in its patch's plane, the metric of the paper's */
+/* method. The plane goes through the mean of the border's positions across the mean of its normals. */
+/* A patch whose border has no plane, or folds in it, is meshed in space instead (mesh/loop_mesh.h), */
+/* and its triangles have their shapes there. */
+/* No vertex is ever added on a curve, so patches conform; a chord between curve vertices that would */
+/* stand in two patches, or beside a curve, is split by a free vertex. O(n log n). Source: T. Stanko */
+/* et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3. */
+
+namespace wireskin::network {
+
+/* How a patch got its triangles. */
+enum class PatchWay : uint8_t { plane, minimal_area };
+
+struct PatchMesh {
+  uint32_t vertices = 0;
+  uint32_t curve_vertices = 0;
+  Array<uint32_t> triangle;          /* three vertices each */
+  Array<uint32_t> patch;             /* of each triangle */
+  Array<mesh::TriangleShape> shape;  /* of each triangle, in its patch's plane or in space */
+  Array<PatchWay> way;               /* of each patch */
+  Array<Vec3> start;                 /* of each vertex: on its curve, in its plane or in space */
+
+  explicit PatchMesh(Context& context)
+      : triangle(context), patch(context), shape(context), way(context), start(context) {}
+};
+
+/* `least_facing`: a plane is taken only where the cosine between its normal and each normal of the */
+/* border is at least this; -1 takes every plane that shows the border without folds. */
+/* Fails, naming the patch, with patch_several_loops, with patch_without_plane where the border runs */
+/* clockwise, with patch_folded where it crosses itself or encloses nothing in space either. */
+Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
+                    PatchMesh* mesh);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_mesh.h ======== */
+
+/* ======== begin src/network/crease.h ======== */
+/* Creases: the mesh of the patches cut open along the sharp curves for the smoothing, and put */
+/* together again. */
+/* */
+/* In: the network with the normals on both sides of its curves, and the mesh of its patches. Out: a */
+/* mesh in which sharp curves are open borders, each copy of a vertex with the normal of its own */
+/* sector: the mean of the sides of the sharp curves that bound it and of the curves inside it. */
+/* Where none of these is known the copy is bare. Held vertices do not move, so copies stay */
+/* together. O(triangles). */
+
+namespace wireskin::network {
+
+struct CreasedMesh {
+  mesh::Cut cut;
+  Array<Vec3> position, normal;
+  Array<uint8_t> held, bare, on_border;
+
+  explicit CreasedMesh(Context& context)
+      : cut(context),
+        position(context),
+        normal(context),
+        held(context),
+        bare(context),
+        on_border(context) {}
+};
+
+/* Whether any curve is sharp; if not, nothing below is needed. */
+inline bool has_creases(const CurveVertices& vertices) {
+  return !vertices.side_start.empty();
+}
+
+/* `sharp`: of each curve; `position`: of each vertex of the mesh. Fails with inconsistent_normals, */
+/* naming node and curve, where the normals of one sector oppose each other. */
+Status cut_along_creases(const Network& network, const CurveVertices& vertices,
+                         Span<const uint8_t> sharp, Span<const Node> nodes, const PatchMesh& mesh,
+                         Span<const Vec3> position, CreasedMesh* creased);
+
+/* Brings positions and triangles back to the vertices of the uncut mesh. */
+void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle);
+
+/* Of each vertex of the uncut mesh. */
+struct VertexMeasures {
+  Span<Vec3> normal;
+  Span<double> mean_curvature;
+  Span<Vec3> constraint_normal;  /* zero where free, or not known */
+  /* Over the sides, and over the edges of the curves that are no creases. */
+  mesh::AngleStatistics* normal_deviation;
+  mesh::AngleStatistics* dihedral;
+};
+
+/* At creases all of these are those of the sides, each measured by itself, in the mean. */
+/* `patch`: of each triangle. */
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const uint32_t> patch,
+                     const VertexMeasures& measures);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/crease.h ======== */
+
 /* ======== begin src/network/plane.h ======== */
-/* The plane of a patch: through the mean position of its border, across the mean normal. */
+/* The plane of a patch: through the mean position of its border, across the mean normal; across the */
+/* vector area of the border where it has no normals. */
 /* */
 /* In: the vertices of a cycle in order. Out: plane coordinates, so that a border that runs */
 /* counter-clockwise seen from the tip of the normal does so in the plane. The first axis points */
@@ -2103,7 +2324,9 @@ Status border_of_patch(const Network& network, const CurveVertices& vertices, ui
                        Array<uint32_t>* border);
 
 /* Fails with patch_without_plane (no place) where the normals cancel out. */
-Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Plane* plane);
+/* `normals`: of the patch along its border, zero where they are not known. */
+Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border,
+                 Span<const Vec3> normals, Plane* plane);
 
 /* Rounds plane coordinates, and a spacing, to a grid of 2^-32 of the polygon's extent. Which */
 /* triangles a patch gets then does not hang on the last bits of its border, which depend on the */
@@ -2142,46 +2365,45 @@ class Enclosure {
 }  /* namespace wireskin::network */
 /* ======== end src/network/enclosure.h ======== */
 
-/* ======== begin src/network/patch_mesh.h ======== */
-/* From cycles to one mesh: every cycle is projected to its plane, triangulated there, and the */
-/* patches are joined along the curves. */
+/* ======== begin src/network/node_normals.h ======== */
+/* Normals for the nodes of sharp curves where not all sides, or none, are known: needed only to put */
+/* the curves round a node in order. */
 /* */
-/* In: the vertices on the curves and the cycles. Out: triangles over the curve vertices (first) and */
-/* the free vertices, each triangle with its shape in its patch's plane, the metric of the paper's */
-/* method. The plane goes through the mean of the border's positions across the mean of its normals. */
-/* A patch whose border has no plane, or folds in it, is meshed in space instead (mesh/loop_mesh.h), */
-/* and its triangles have their shapes there. */
-/* No vertex is ever added on a curve, so patches conform; a chord between curve vertices that would */
-/* stand in two patches, or beside a curve, is split by a free vertex. O(n log n). Source: T. Stanko */
-/* et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3. */
+/* In: curves, nodes. Out: a unit normal at every node of a crease. The axis of a node is across the */
+/* plane that fits best the tips of the unit tangents that leave it: seen along it, the edges of a */
+/* convex corner and the curves of a smooth point stand in their order. Its sense is that of the */
+/* normals known there; or else it follows from a neighbour along a curve; where no node of a */
+/* component has any, the axes point away from its middle. Fails with missing_normals, naming the */
+/* node, where that decides nothing. O(knots + nodes^2 in the worst case of one long chain, else */
+/* near linear). */
 
 namespace wireskin::network {
 
-/* How a patch got its triangles. */
-enum class PatchWay : uint8_t { plane, minimal_area };
-
-struct PatchMesh {
-  uint32_t vertices = 0;
-  uint32_t curve_vertices = 0;
-  Array<uint32_t> triangle;          /* three vertices each */
-  Array<uint32_t> patch;             /* of each triangle */
-  Array<mesh::TriangleShape> shape;  /* of each triangle, in its patch's plane or in space */
-  Array<PatchWay> way;               /* of each patch */
-  Array<Vec3> start;                 /* of each vertex: on its curve, in its plane or in space */
-
-  explicit PatchMesh(Context& context)
-      : triangle(context), patch(context), shape(context), way(context), start(context) {}
-};
-
-/* `least_facing`: a plane is taken only where the cosine between its normal and each normal of the */
-/* border is at least this; -1 takes every plane that shows the border without folds. */
-/* Fails with patch_several_loops, or with patch_folded where the border encloses nothing in space */
-/* either, naming the patch. */
-Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    PatchMesh* mesh);
+Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes);
 
 }  /* namespace wireskin::network */
-/* ======== end src/network/patch_mesh.h ======== */
+/* ======== end src/network/node_normals.h ======== */
+
+/* ======== begin src/network/side_normals.h ======== */
+/* The normals on both sides of the vertices on the curves, where some curves are sharp. */
+/* */
+/* In: curves with their fields on the right, segments, vertices. Out: CurveVertices::left and */
+/* ::right, and for the vertices inside sharp segments the mean of both. At a node every segment has */
+/* the normals of its own curve there. O(vertices). */
+
+namespace wireskin::network {
+
+/* Fails with inconsistent_normals where opposite normals cancel out on a curve. */
+Status resample_sides(const curves::Curves& curves, const Network& network,
+                      CurveVertices* vertices);
+
+/* The normals of a patch's own side along its border, in the order of border_of_patch; at a node */
+/* the mean of the two segments that meet there. Zero where they are not known. */
+Status normals_of_border(const Network& network, const CurveVertices& vertices, uint32_t p,
+                         Array<Vec3>* normals);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/side_normals.h ======== */
 
 /* ======== begin src/planar/polygon_mesh.h ======== */
 /* A triangle mesh of a simple polygon whose border is kept bit for bit: constrained Delaunay, with */
@@ -2817,9 +3039,12 @@ class Cholesky {
 /*   g_r = -<(L v)_r + c_r, n_i(r)>, */
 /* where c_r is the conormal of the patch's rim, made from the curve's positions and the given */
 /* normals: that is how these normals enter. Split rows are essential, merged ones never see them. */
-/* On open borders the rows of the last term are left out. One factorisation of size 2 n. Source: H. */
-/* Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992 (minimum variation */
-/* surfaces), linearised along the normals. */
+/* On open borders the rows of the last term are left out. Where a border's normal is not known it */
+/* has no conormal: there the row of the last term stays, as the natural condition, and the first */
+/* one's place is taken by a slight pull of h towards zero, without which a patch of no known normal */
+/* at all could have any constant h. One factorisation of size 2 n. Source: H. Moreton, C. Sequin, */
+/* "Functional Optimization for Fair Surface Design", 1992 (minimum variation surfaces), linearised */
+/* along the normals. */
 
 namespace wireskin::smooth {
 
@@ -2833,6 +3058,9 @@ struct DisplaceInput {
   Span<const uint8_t> on_border;
   double smoothing_length = 0.0;  /* c l above */
   Soft soft = {};                 /* adds (c l)^4 share / cutoff^7 (u - <a - v, n>)^2 */
+  Span<const uint8_t> bare = {};  /* held, on a border, normal not known; empty: none */
+
+  bool is_bare(uint32_t v) const { return !bare.empty() && bare[v]; }
 };
 
 /* Solves one step after the other. The systems of later steps differ little from the first, so its */
@@ -2851,9 +3079,9 @@ class MinimumVariation {
 
  private:
   Status number_unknowns(Span<const uint8_t> held);
-  Status make_rows(const sparse::Csc& split_laplacian, Span<const double> split_area,
-                   Span<const uint32_t> origin, const sparse::Csc& laplacian,
-                   sparse::Csc* rows) const;
+  Status make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
+                   Span<const double> split_area, Span<const uint32_t> origin,
+                   const sparse::Csc& laplacian, sparse::Csc* rows) const;
   Status solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
                              Span<const double> rhs, Span<double> solution, bool* solved);
   Status solve_by_new_factor(const sparse::Csc& rows, Span<const double> weight,
@@ -2955,6 +3183,7 @@ struct FairMesh {
   Span<const uint8_t> on_border;
   Soft soft;
   Span<const mesh::TriangleShape> start_shape;  /* empty: positions are a start already */
+  Span<const uint8_t> bare = {};                /* held, on a border, normal not known; empty: none */
 };
 
 struct FairOptions {
@@ -4286,7 +4515,8 @@ static Status add_conormals(Context& context, const Domain& domain, const Field&
 static void row_weights(const Domain& domain, bool border_rows, Span<const double> area,
                         Span<double> weight) {
   for (size_t v = 0; v < weight.size(); ++v) {
-    weight[v] = domain.on_border[v] && !border_rows ? 0.0 : 1.0 / area[v];
+    const bool bare = !domain.bare.empty() && domain.bare[v];
+    weight[v] = bare || (domain.on_border[v] && !border_rows) ? 0.0 : 1.0 / area[v];
   }
 }
 
@@ -4321,12 +4551,34 @@ static Status penalties(const Domain& domain, int order, bool normals, Array<dou
   return {};
 }
 
+/* Bare vertices take the normal that the surface has there by itself: the current one in space, the */
+/* biharmonic one over the planes. */
+static Status estimate_bare_normals(Context& context, const Domain& domain, const Field& field,
+                                    Guided* guided, double* residual) {
+  Array<Vec3> normal(context);
+  Array<double> penalty(context);
+  TRY(normal.resize(field.normal.size()));
+  if (domain.metric == Metric::planes) {
+    TRY(penalties(domain, 2, false, &penalty));
+    TRY(guided->system.factor(guided->weight.span(), penalty.span()));
+    TRY(guided->system.solve({}, domain.soft.position, field.position, residual));
+  }
+  mesh::vertex_normals(field.position, domain.triangle, normal.span());
+  for (size_t v = 0; v < normal.size(); ++v) {
+    if (domain.bare[v]) field.normal[v] = normal[v];
+  }
+  return {};
+}
+
 /* Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor */
 /* serves both; soft ones pull normals and positions by springs of their own. */
 static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
                         double* residual) {
   const size_t n = field.position.size();
   Array<double> penalty(context);
+  if (!domain.bare.empty()) {
+    TRY(estimate_bare_normals(context, domain, field, guided, residual));
+  }
   TRY(guided->conormal.assign(n, Vec3{}));
   TRY(guided->target.resize(n));
   TRY(penalties(domain, 2, true, &penalty));
@@ -4401,8 +4653,8 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
 /* ======== begin src/surface.cpp ======== */
 namespace wireskin {
 
-/* A plane that sees part of a border more steeply than this distorts the mesh; the methods that leave the */
-/* planes behind then start better from a triangulation in space. */
+/* A plane that sees part of a border more steeply than this distorts the mesh; the methods that */
+/* leave the planes behind then start better from a triangulation in space. */
 static constexpr double k_least_facing = 0.25;
 
 static double diagonal(Span<const Vec3> points) {
@@ -4420,18 +4672,34 @@ static curves::Samples samples_of(const CurveSet& set, Span<const uint32_t> node
           node.empty() ? node : node.part(first, count), set.closed[curve] != 0};
 }
 
+/* The same with the normals on the right of a sharp curve. */
+static curves::Samples right_samples_of(const CurveSet& set, uint32_t curve) {
+  curves::Samples samples = samples_of(set, {}, curve);
+  samples.normal = set.right.part(set.start[curve], samples.position.size());
+  return samples;
+}
+
 static Status at_curve(Status status, uint32_t curve) {
   if (!status.ok()) status.place.curve = curve;
   return status;
 }
 
-/* Gives the samples of every node its position and normal. */
+/* What sharp curves need besides: the normals on their right, and those of their nodes. */
+static Status fit_sides(const CurveSet& set, Span<network::Node> nodes, curves::Curves* fitted) {
+  for (uint32_t c = 0; c < set.sharp.size(); ++c) {
+    if (set.sharp[c]) TRY(at_curve(curves::check_samples(right_samples_of(set, c)), c));
+  }
+  TRY(curves::fit_right_normals({set.start, set.right, set.sharp}, fitted));
+  return network::complete_node_normals(*fitted, nodes);
+}
+
+/* Gives the samples of every node its position and normal; at creases curves keep their own. */
 static void unite_nodes(const CurveSet& set, Span<const uint32_t> node,
                         Span<const network::Node> nodes) {
   for (size_t i = 0; i < node.size(); ++i) {
     if (node[i] == k_none) continue;
     set.position[i] = nodes[node[i]].position;
-    set.normal[i] = nodes[node[i]].normal;
+    if (!nodes[node[i]].crease) set.normal[i] = nodes[node[i]].normal;
   }
 }
 
@@ -4449,14 +4717,20 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
     TRY(kept_start->push(static_cast<uint32_t>(kept->size())));
   }
   if (options.noise == network::Noise::none) return {};
+  /* Where curves are sharp a node has no one normal, so normals stay as they are; the constant */
+  /* field in their place has no noise. */
+  Array<Vec3> constant(context);
+  const bool creased = !set.sharp.empty();
+  if (creased) TRY(constant.assign(set.normal.size(), Vec3{0, 0, 1}));
+  const Span<Vec3> normals = creased ? constant.span() : set.normal;
   TRY(network::smooth_samples(
       context,
-      {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, set.normal},
+      {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, normals},
       options, &counts->noise));
   for (size_t i = 0; i < node.size(); ++i) {
     if (node[i] == k_none) continue;
     nodes[node[i]].position = set.position[i];
-    nodes[node[i]].normal = set.normal[i];
+    if (!creased) nodes[node[i]].normal = set.normal[i];
   }
   return {};
 }
@@ -4471,7 +4745,8 @@ static Status fit_curves(Context& context, const CurveSet& set, double size,
   for (uint32_t c = 0; c < counts->curves; ++c) {
     TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
   }
-  const network::SampleNumbers samples = {set.start, set.number, set.position, set.normal};
+  const network::SampleNumbers samples = {set.start,  set.number, set.position,
+                                          set.normal, set.sharp,  set.right};
   TRY(network::find_nodes(samples, k_node_tolerance * size, nodes, &node));
   counts->nodes = static_cast<uint32_t>(nodes->size());
   unite_nodes(set, node.span(), nodes->span());
@@ -4483,7 +4758,7 @@ static Status fit_curves(Context& context, const CurveSet& set, double size,
     TRY(at_curve(curves::fit_curve(samples_of(set, node.span(), c), own, fitted), c));
     TRY(context.progress(static_cast<double>(c + 1) / counts->curves));
   }
-  return {};
+  return set.sharp.empty() ? Status{} : fit_sides(set, nodes->span(), fitted);
 }
 
 /* The curves as resampled, edge by edge. */
@@ -4579,45 +4854,108 @@ struct Start {
 
 }  /* namespace */
 
+namespace {
+
+/* What the methods work on: the mesh itself, or the one cut open along its creases. */
+struct Workpiece {
+  Span<Vec3> position, normal;
+  Span<uint32_t> triangle;
+  Span<const uint8_t> on_curve, held, on_border, bare;
+  smooth::Soft soft;
+};
+
+}  /* namespace */
+
+static Status apply_method(Context& context, const Start& start, const Workpiece& piece,
+                           smooth::Method method, Surface* surface) {
+  Counts* counts = &surface->counts;
+  if (method != smooth::Method::iterated && method != smooth::Method::fair) {
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
+                                   piece.on_border, start.metric, piece.soft,     piece.bare};
+    return smooth::smooth(context, domain, method, {piece.position, piece.normal},
+                          &counts->residual);
+  }
+  smooth::FairReport report;
+  smooth::FairOptions options;
+  if (method == smooth::Method::iterated) options.displacement_steps = 0;
+  const bool planes = start.metric == smooth::Metric::planes;
+  const smooth::FairMesh mesh = {piece.position,
+                                 piece.normal,
+                                 piece.triangle,
+                                 surface->patch.span(),
+                                 piece.on_curve,
+                                 piece.held,
+                                 piece.on_border,
+                                 piece.soft,
+                                 planes ? start.shape : Span<const mesh::TriangleShape>{},
+                                 piece.bare};
+  TRY(smooth::fair(context, mesh, counts->patches, options, &report));
+  counts->residual = report.residual;
+  counts->guarded_patches = report.guarded_patches;
+  counts->iterations = report.iterations;
+  return {};
+}
+
 /* Smooths the surface by the chosen method and measures the result. */
 static Status smooth_surface(Context& context, const Start& start, const Constraints& constraints,
                              smooth::Method method, Surface* surface) {
   Array<Vec3> normal(context), anchor(context);
-  Counts* counts = &surface->counts;
   TRY(normal.copy(surface->constraint_normal.span()));
   if (!constraints.cutoff.empty()) TRY(anchor.copy(surface->position.span()));
-  const smooth::Soft soft = {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
-                             surface->constraint_normal.span(), counts->spacing};
-  if (method == smooth::Method::iterated || method == smooth::Method::fair) {
-    smooth::FairReport report;
-    smooth::FairOptions options;
-    if (method == smooth::Method::iterated) options.displacement_steps = 0;
-    const bool planes = start.metric == smooth::Metric::planes;
-    const smooth::FairMesh mesh = {surface->position.span(),
-                                   normal.span(),
-                                   surface->triangle.span(),
-                                   surface->patch.span(),
-                                   constraints.on_curve.span(),
-                                   constraints.held.span(),
-                                   start.on_border,
-                                   soft,
-                                   planes ? start.shape : Span<const mesh::TriangleShape>{}};
-    TRY(smooth::fair(context, mesh, counts->patches, options, &report));
-    counts->residual = report.residual;
-    counts->guarded_patches = report.guarded_patches;
-    counts->iterations = report.iterations;
-  } else {
-    const smooth::Domain domain = {surface->triangle.span(),
-                                   start.shape,
-                                   constraints.on_curve.span(),
-                                   constraints.held.span(),
-                                   start.on_border,
-                                   start.metric,
-                                   soft};
-    TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},
-                       &counts->residual));
-  }
+  const Workpiece piece = {surface->position.span(),
+                           normal.span(),
+                           surface->triangle.span(),
+                           constraints.on_curve.span(),
+                           constraints.held.span(),
+                           start.on_border,
+                           {},
+                           {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
+                            surface->constraint_normal.span(), surface->counts.spacing}};
+  TRY(apply_method(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
+}
+
+/* The same on the mesh cut open along the creases. */
+static Status smooth_creased(Context& context, const Start& start, const Constraints& constraints,
+                             smooth::Method method, network::CreasedMesh* creased,
+                             Surface* surface) {
+  const size_t copies = creased->position.size();
+  Array<Vec3> anchor(context), given_normal(context);
+  Array<double> cutoff(context), share(context);
+  Array<uint8_t> on_curve(context), held(context);
+  TRY(on_curve.resize(copies));
+  TRY(held.resize(copies));
+  if (!constraints.cutoff.empty()) {
+    TRY(cutoff.resize(copies));
+    TRY(share.resize(copies));
+    TRY(anchor.copy(creased->position.span()));
+    TRY(given_normal.copy(creased->normal.span()));
+  }
+  for (size_t c = 0; c < copies; ++c) {
+    const uint32_t v = creased->cut.origin[c];
+    on_curve[c] = constraints.on_curve[v];
+    held[c] = constraints.held[v];
+    if (cutoff.empty()) continue;
+    cutoff[c] = constraints.cutoff[v];
+    share[c] = constraints.share[v];
+  }
+  const Workpiece piece = {
+      creased->position.span(),
+      creased->normal.span(),
+      creased->cut.triangle.span(),
+      on_curve.span(),
+      held.span(),
+      creased->on_border.span(),
+      creased->bare.span(),
+      {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing}};
+  TRY(apply_method(context, start, piece, method, surface));
+  network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
+  TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
+              surface));
+  return network::measure_sides(
+      context, *creased, surface->patch.span(),
+      {surface->normal.span(), surface->mean_curvature.span(), surface->constraint_normal.span(),
+       &surface->counts.normal_deviation, &surface->counts.dihedral});
 }
 
 /* Curve vertices hold, or pull where their curve is soft; where curves meet, one that holds wins, */
@@ -4637,7 +4975,9 @@ static Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, con
   TRY(constraints->cutoff.assign(n, -1.0));
   for (size_t e = 0; e < surface.curve_edge.size(); ++e) {
     double& cutoff = constraints->cutoff[surface.curve_edge[e]];
-    const double own = set.soft[surface.curve_edge_curve[e / 2]];
+    const uint32_t curve = surface.curve_edge_curve[e / 2];
+    const bool sharp = !set.sharp.empty() && set.sharp[curve];  /* these hold in any case */
+    const double own = sharp ? 0.0 : set.soft[curve];
     if (cutoff < 0.0 || own < cutoff) cutoff = own;
   }
   for (size_t v = 0; v < n; ++v) {
@@ -4726,9 +5066,15 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
       count_topology(patches.vertices, surface->triangle.span(), &topology, counts), nodes.span()));
 
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
-  TRY(smooth_surface(context,
-                     {patches.shape.span(), smooth::Metric::planes, topology.on_border.span()},
-                     constraints, settings.method, surface));
+  const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span()};
+  if (network::has_creases(vertices)) {
+    network::CreasedMesh creased(context);
+    TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
+                                   surface->position.span(), &creased));
+    TRY(smooth_creased(context, start, constraints, settings.method, &creased, surface));
+  } else {
+    TRY(smooth_surface(context, start, constraints, settings.method, surface));
+  }
   return measure_constraints(set, given.span(), surface);
 }
 
@@ -5253,6 +5599,47 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
 }  /* namespace wireskin::curves */
 /* ======== end src/curves/distance.cpp ======== */
 
+/* ======== begin src/curves/sides.cpp ======== */
+namespace wireskin::curves {
+
+static Status fit_right_of_curve(const RightSamples& samples, size_t c, Curves* curves,
+                                 SplineScratch* scratch) {
+  const size_t first = curves->start[c], count = curves->start[c + 1] - first;
+  const Span<const double> knots = curves->knot.span().part(first, count);
+  const Span<Vec3> values = curves->right.span().part(first, count);
+  const Span<Vec3> moments = curves->right_moment.span().part(first, count);
+  for (size_t k = 0; k < count; ++k) {
+    values[k] = samples.normal[samples.start[c] + curves->sample[first + k]];
+  }
+  const bool closed = curves->sample[first] == curves->sample[first + count - 1];
+  return fit_spline(knots, values, closed ? SplineEnd::periodic : SplineEnd::clamped,
+                    parabola_tangent(knots, values, false), parabola_tangent(knots, values, true),
+                    moments, scratch);
+}
+
+Status fit_right_normals(const RightSamples& samples, Curves* curves) {
+  SplineScratch scratch(curves->start.context());
+  TRY(curves->right.copy(curves->normal.span()));
+  TRY(curves->right_moment.copy(curves->normal_moment.span()));
+  for (size_t c = 0; c < curves->size(); ++c) {
+    if (samples.sharp[c]) TRY(fit_right_of_curve(samples, c, curves, &scratch));
+    if (c % 256 == 255) TRY(curves->start.context().checkpoint());
+  }
+  return {};
+}
+
+Curve seen_from_right(const Curves& curves, size_t curve) {
+  Curve view = curves[curve];
+  if (curves.right.empty()) return view;
+  const size_t first = curves.start[curve], count = curves.start[curve + 1] - first;
+  view.normal.value = curves.right.span().part(first, count);
+  view.normal.moment = curves.right_moment.span().part(first, count);
+  return view;
+}
+
+}  /* namespace wireskin::curves */
+/* ======== end src/curves/sides.cpp ======== */
+
 /* ======== begin src/mesh/care.cpp ======== */
 namespace wireskin::mesh {
 
@@ -5474,6 +5861,54 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/curvature.cpp ======== */
+
+/* ======== begin src/mesh/cut.cpp ======== */
+namespace wireskin::mesh {
+
+/* The clockwise-most corner of the sector of corner h, a half-edge that leaves its vertex: cuts and */
+/* borders end the walk, or else it comes back to h. */
+static uint32_t first_of_sector(Span<const uint32_t> twins, Span<const uint8_t> marked,
+                                uint32_t h) {
+  uint32_t g = h;
+  while (!marked[g] && twins[g] != k_none) {
+    g = next_half_edge(twins[g]);
+    if (g == h) break;
+  }
+  return g;
+}
+
+Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint8_t> marked,
+                Cut* cut) {
+  Array<uint32_t> twins(cut->origin.context());
+  Array<uint8_t> taken(cut->origin.context());
+  TRY(find_twins(vertices, triangles, &twins));
+  TRY(taken.assign(vertices, 0));
+  TRY(cut->triangle.assign(triangles.size(), k_none));
+  TRY(cut->origin.resize(vertices));
+  for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    if (cut->triangle[h] != k_none) continue;
+    const uint32_t v = triangles[h];
+    uint32_t copy = v;
+    if (taken[v]) {
+      copy = cut->vertices();
+      TRY(cut->origin.push(v));
+    }
+    taken[v] = 1;
+    const uint32_t first = first_of_sector(twins.span(), marked, h);
+    for (uint32_t g = first; g != k_none;) {
+      cut->triangle[g] = copy;
+      const uint32_t across = previous_half_edge(g);
+      g = marked[across] ? k_none : twins[across];
+      if (g == first) break;
+    }
+    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
+  }
+  return {};
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/cut.cpp ======== */
 
 /* ======== begin src/mesh/loop_mesh.cpp ======== */
 namespace wireskin::mesh {
@@ -6090,17 +6525,109 @@ double arc_tangent(double y, double x) {
 }  /* namespace wireskin */
 /* ======== end src/num/trig.cpp ======== */
 
+/* ======== begin src/network/border.cpp ======== */
+namespace wireskin::network {
+
+static double clamp_to_unit(double t) {
+  return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+}
+
+/* The square of the distance between the segments a b and c d. */
+static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = d - c, w = a - c;
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const double determinant = uu * vv - uv * uv;
+  const double s = determinant > 0.0 ? clamp_to_unit((uv * vw - vv * uw) / determinant) : 0.0;
+  const double t = clamp_to_unit((uv * s + vw) / vv);  /* nearest on c d to that point of a b */
+  const double again = clamp_to_unit((uv * t - uw) / uu);
+  const Vec3 gap = (a + again * u) - (c + t * v);
+  return dot(gap, gap);
+}
+
+/* Whether two edges without a common end touch, to within a millionth of the border's length. */
+static bool crosses_itself(Span<const Vec3> position, double perimeter) {
+  constexpr double k_touch = 1e-6;
+  const size_t n = position.size();
+  for (size_t i = 0; i < n; ++i) {
+    const Vec3 &a = position[i], &b = position[i + 1 < n ? i + 1 : 0];
+    const double own = length(b - a);
+    for (size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j == n - 1) continue;
+      const Vec3 &c = position[j], &d = position[j + 1 < n ? j + 1 : 0];
+      if (length(c - a) > own + length(d - c) + k_touch * perimeter) continue;
+      if (segment_distance2(a, b, c, d) <= k_touch * perimeter * (k_touch * perimeter)) return true;
+    }
+  }
+  return false;
+}
+
+Status check_border(Span<const Vec3> position, Span<const Vec3> normal) {
+  const size_t n = position.size();
+  Vec3 area, normals;
+  double perimeter = 0.0;
+  for (size_t i = 0; i < n; ++i) {
+    const Vec3& next = position[i + 1 < n ? i + 1 : 0];
+    area += 0.5 * cross(position[i] - position[0], next - position[0]);
+    normals += (1.0 / static_cast<double>(n)) * normal[i];
+    perimeter += length(next - position[i]);
+  }
+  /* A disc of this perimeter has the area perimeter^2 / (4 pi); a fifth of that is no accident. */
+  const double clear_area = perimeter * perimeter / 60.0;
+  const bool clear_normals = length(normals) > 0.5;
+  if (clear_normals && dot(area, unit(normals)) < -clear_area) {
+    return fail(
+        Code::patch_without_plane,
+        "the border runs clockwise round its normals: where a surface ends, its curves must be "
+        "tagged as boundary");
+  }
+  if (crosses_itself(position, perimeter)) {
+    return fail(Code::patch_folded, "the border of the patch crosses itself");
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/border.cpp ======== */
+
 /* ======== begin src/network/nodes.cpp ======== */
 namespace wireskin::network {
+
+static uint32_t curve_of_sample(const SampleNumbers& samples, uint32_t sample) {
+  uint32_t low = 0, high = static_cast<uint32_t>(samples.start.size()) - 1;
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    (samples.start[middle] <= sample ? low : high) = middle;
+  }
+  return low;
+}
 
 static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,
                       uint32_t sample) {
   Place place;
-  place.curve = 0;
-  while (samples.start[place.curve + 1] <= sample) ++place.curve;
+  place.curve = curve_of_sample(samples, sample);
   place.sample = sample - samples.start[place.curve];
   place.node = samples.number[sample];
   return fail(code, sentence, place);
+}
+
+/* The normal of a node of sharp curves: normals differ across these, so none opposes another here. */
+static void merge_sides(const SampleNumbers& samples, Span<const uint32_t> members, Node* node) {
+  Vec3 sharp, smooth;
+  for (uint32_t sample : members) {
+    if (!samples.sharp[curve_of_sample(samples, sample)]) {
+      smooth += samples.normal[sample];
+      continue;
+    }
+    const Vec3 &left = samples.normal[sample], &right = samples.right[sample];
+    node->crease = true;
+    node->certain = node->certain && dot(left, left) > 0.0 && dot(right, right) > 0.0;
+    sharp += left + right;
+  }
+  if (!node->crease) return;
+  /* Sides that nearly cancel out have no mean that tells anything. */
+  constexpr double k_least_sum = 1e-3;
+  if (!(length(sharp) > k_least_sum)) node->certain = false;
+  node->normal = unit(node->certain ? sharp : sharp + smooth);
 }
 
 /* Makes one node of the samples that carry the same number. */
@@ -6117,6 +6644,8 @@ static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, 
     sum += samples.normal[sample];
   }
   node->normal = unit(sum);
+  if (!samples.sharp.empty()) merge_sides(samples, members, node);
+  if (node->crease) return {};
   for (uint32_t sample : members) {
     if (!(dot(samples.normal[sample], node->normal) > 0.0)) {
       return fail_at(Code::inconsistent_normals,
@@ -6169,6 +6698,10 @@ struct Graph {
   const Segment& segment_of(uint32_t h) const { return segments[h / 2]; }
   uint32_t from(uint32_t h) const { return h % 2 == 0 ? segment_of(h).from : segment_of(h).to; }
   curves::Curve curve_of(uint32_t h) const { return curves[segment_of(h).curve]; }
+  /* With the normals on the left of the half-segment. */
+  curves::Curve side_of(uint32_t h) const {
+    return h % 2 == 0 ? curve_of(h) : seen_from_right(curves, segment_of(h).curve);
+  }
 };
 
 struct Leaving {
@@ -6344,25 +6877,27 @@ static void number_cycles(Cycles* cycles) {
   }
 }
 
-/* Twice the area that the cycle through h encloses, seen along the sum of its normals; the sign */
-/* tells a patch, counter-clockwise, from the outside of one. */
+/* Twice the area that the cycle through h encloses, seen along the sum of its normals (of its */
+/* nodes' where the curves have none); the sign tells a patch, counter-clockwise, from the outside */
+/* of one. */
 static double signed_area(const Graph& graph, Span<const uint32_t> next, uint32_t h) {
   const Segment& first = graph.segment_of(h);
   const Vec3 base = graph.curves[first.curve].position.value[first.first_knot];
-  Vec3 area, normals;
+  Vec3 area, normals, nodes;
   uint32_t g = h;
   do {
     const Segment& segment = graph.segment_of(g);
-    const curves::Curve curve = graph.curve_of(g);
+    const curves::Curve curve = graph.side_of(g);
     const double sign = g % 2 == 0 ? 1.0 : -1.0;
     for (uint32_t k = segment.first_knot; k < segment.last_knot; ++k) {
       const Vec3 a = curve.position.value[k] - base, b = curve.position.value[k + 1] - base;
       area += sign * cross(a, b);
       normals += curve.normal.value[k];
     }
+    if (segment.from != k_none) nodes += graph.nodes[graph.from(g)].normal;
     g = next[g];
   } while (g != h);
-  return dot(area, normals);
+  return dot(area, dot(normals, normals) > 0.0 ? normals : nodes);
 }
 
 /* Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for */
@@ -6532,7 +7067,7 @@ static Status place_vertices(const curves::Curves& curves, const Network& networ
     const double part = static_cast<double>(k) / static_cast<double>(edges);
     const curves::CurvePoint point =
         point_at(curve, segment.first_knot, segment.last_knot, from + part * length);
-    if (!(dot(point.normal, point.normal) > 0.5)) {
+    if (has_normals(curve) && !(dot(point.normal, point.normal) > 0.5)) {
       return fail_at_sample(Code::inconsistent_normals,
                             "the normals of neighbouring samples cancel out", segment.curve,
                             curve.sample[segment.first_knot]);
@@ -6556,11 +7091,428 @@ Status resample(const curves::Curves& curves, Span<const Node> nodes, const Netw
     TRY(place_vertices(curves, network, s, vertices));
     if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
   }
-  return {};
+  return curves.right.empty() ? Status{} : resample_sides(curves, network, vertices);
 }
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/resample.cpp ======== */
+
+/* ======== begin src/network/patch_mesh.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+/* An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a */
+/* curve. */
+struct Chord {
+  uint32_t a, b;
+  uint32_t patch;
+};
+
+/* What is gathered over all patches: corner[3 t + k] is corner k of triangle t, in space or in its */
+/* patch's plane (z = 0; the same vertex then has another place in each patch). */
+struct Builder {
+  PatchMesh* mesh;
+  Array<Vec3> corner;
+  Array<Chord> chord;
+  Array<uint32_t> patch_start;  /* first triangle of each patch, before chords are split */
+
+  explicit Builder(Context& context, PatchMesh* result)
+      : mesh(result), corner(context), chord(context), patch_start(context) {}
+};
+
+/* Memory for one patch, reused: the border, the mesh either way, and what both come to: triangles */
+/* over border vertices 0 .. n - 1 and inner ones from n, the corners' places for the metric, and */
+/* where the inner vertices may start in space. */
+struct PatchScratch {
+  Array<uint32_t> border;
+  Array<Vec2> polygon;
+  Array<Vec3> loop, loop_normal;  /* along the border; normals are zero where not known */
+  planar::PolygonMesh planar;
+  mesh::LoopMesh spatial;
+  Array<Vec3> place;
+  Array<Vec3> inner;
+
+  explicit PatchScratch(Context& context)
+      : border(context),
+        polygon(context),
+        loop(context),
+        loop_normal(context),
+        planar(context),
+        spatial(context),
+        place(context),
+        inner(context) {}
+};
+
+}  /* namespace */
+
+/* Adds the place to what went wrong with a patch: its number and a curve of its border. */
+static Status at_patch(Status status, const Network& network, uint32_t patch) {
+  const bool geometric = status.code == Code::patch_without_plane ||
+                         status.code == Code::patch_folded ||
+                         status.code == Code::patch_several_loops;
+  if (!geometric) return status;
+  status.place.patch = patch;
+  if (status.place.curve == k_none) {
+    status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
+  }
+  return status;
+}
+
+static double mean_edge(const CurveVertices& vertices, Span<const uint32_t> border) {
+  double sum = 0.0;
+  for (size_t i = 0; i < border.size(); ++i) {
+    const size_t next = i + 1 == border.size() ? 0 : i + 1;
+    sum += length(vertices.position[border[next]] - vertices.position[border[i]]);
+  }
+  return sum / static_cast<double>(border.size());
+}
+
+static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
+                           uint32_t patch, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  const uint32_t n = static_cast<uint32_t>(scratch.border.size());
+  const auto global = [&](uint32_t v) {
+    return v < n ? scratch.border[v] : mesh->vertices + (v - n);
+  };
+  for (size_t h = 0; h < triangle.size(); ++h) {
+    const uint32_t a = triangle[h], b = triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    TRY(mesh->triangle.push(global(a)));
+    TRY(builder->corner.push(scratch.place[a]));
+    if (h % 3 == 0) TRY(mesh->patch.push(patch));
+    const bool on_border = (a + 1) % n == b || (b + 1) % n == a;
+    /* Each edge inside is met once in each direction; the ascending one is noted. */
+    if (a < n && b < n && !on_border && global(a) < global(b)) {
+      TRY(builder->chord.push({global(a), global(b), patch}));
+    }
+  }
+  for (const Vec3& p : scratch.inner) TRY(mesh->start.push(p));
+  const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
+  if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
+    return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  mesh->vertices = static_cast<uint32_t>(vertices);
+  return {};
+}
+
+static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& enclosure,
+                            double spacing, double least_facing, PatchScratch* scratch) {
+  Plane plane;
+  TRY(fit_plane(vertices, scratch->border.span(), scratch->loop_normal.span(), &plane));
+  const size_t n = scratch->border.size();
+  TRY(scratch->polygon.resize(n));
+  double facing = 1.0;
+  for (size_t i = 0; i < n; ++i) {
+    scratch->polygon[i] = plane.project(scratch->loop[i]);
+    const double cosine = dot(scratch->loop_normal[i], plane.normal);
+    const bool known = scratch->loop_normal[i] != Vec3{};
+    if (known && cosine < facing) facing = cosine;
+  }
+  TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
+  if (facing < least_facing) {
+    return fail(Code::patch_without_plane, "the plane of the patch sees its border edge-on");
+  }
+  round_to_grid(scratch->polygon.span(), &spacing);
+  TRY(planar::mesh_polygon(scratch->border.context(), scratch->polygon.span(), spacing,
+                           &scratch->planar));
+  const Array<Vec2>& points = scratch->planar.points;
+  TRY(scratch->place.resize(points.size()));
+  TRY(scratch->inner.resize(points.size() - n));
+  for (size_t i = 0; i < points.size(); ++i) {
+    scratch->place[i] = {points[i].x, points[i].y, 0.0};
+    if (i >= n) scratch->inner[i - n] = plane.lift(points[i]);
+  }
+  return {};
+}
+
+static Status mesh_in_space(double spacing, PatchScratch* scratch) {
+  TRY(mesh::mesh_loop(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span(),
+                      spacing, &scratch->spatial));
+  TRY(scratch->inner.copy(scratch->spatial.inner.span()));
+  TRY(scratch->place.copy(scratch->loop.span()));
+  for (const Vec3& p : scratch->inner) TRY(scratch->place.push(p));
+  return {};
+}
+
+static Status mesh_patch(const Network& network, const CurveVertices& vertices,
+                         const Enclosure& enclosure, double least_facing, uint32_t patch,
+                         PatchScratch* scratch, Builder* builder) {
+  TRY(border_of_patch(network, vertices, patch, &scratch->border));
+  TRY(normals_of_border(network, vertices, patch, &scratch->loop_normal));
+  const size_t n = scratch->border.size();
+  TRY(scratch->loop.resize(n));
+  for (size_t i = 0; i < n; ++i) {
+    scratch->loop[i] = vertices.position[scratch->border[i]];
+  }
+  const double spacing = mean_edge(vertices, scratch->border.span());
+  const Status status = mesh_in_plane(vertices, enclosure, spacing, least_facing, scratch);
+  if (status.ok()) {
+    TRY(builder->mesh->way.push(PatchWay::plane));
+    return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
+  }
+  if (status.code != Code::patch_without_plane && status.code != Code::patch_folded) return status;
+  TRY(check_border(scratch->loop.span(), scratch->loop_normal.span()));
+  TRY(mesh_in_space(spacing, scratch));
+  TRY(builder->mesh->way.push(PatchWay::minimal_area));
+  return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
+}
+
+/* Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the */
+/* triangle keeps one half, a new triangle takes the other. */
+static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
+  const Vec3 middle = 0.5 * (builder->corner[h] + builder->corner[next]);
+  const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
+  const Vec3 corner[3] = {middle, builder->corner[next], builder->corner[previous]};
+  for (int k = 0; k < 3; ++k) {
+    TRY(mesh->triangle.push(vertex[k]));
+    TRY(builder->corner.push(corner[k]));
+  }
+  mesh->triangle[next] = m;
+  builder->corner[next] = middle;
+  return mesh->patch.push(mesh->patch[h / 3]);
+}
+
+/* Splits the triangles [first, end) of the chord's patch that have the chord. */
+static Status split_triangles(const Chord& chord, uint32_t first, uint32_t end, uint32_t middle,
+                              Builder* builder) {
+  const PatchMesh& mesh = *builder->mesh;
+  for (uint32_t h = 3 * first; h < 3 * end; ++h) {
+    const uint32_t a = mesh.triangle[h], b = mesh.triangle[mesh::next_half_edge(h)];
+    const bool here = (a == chord.a && b == chord.b) || (a == chord.b && b == chord.a);
+    if (here && mesh.patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, builder));
+  }
+  return {};
+}
+
+/* A patch's triangles are those it began with and some of those that came from earlier splits. */
+static Status split_chord(const Chord& chord, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  if (mesh->triangle.size() > 0x7fffffff) {
+    return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  const uint32_t middle = mesh->vertices++;
+  TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
+  const uint32_t* own = &builder->patch_start[chord.patch];
+  const uint32_t first_split = builder->patch_start.back();
+  const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
+  TRY(split_triangles(chord, own[0], own[1], middle, builder));
+  TRY(split_triangles(chord, first_split, triangles, middle, builder));
+  return mesh->triangle.context().checkpoint();
+}
+
+/* Splits every chord that stands in two patches or beside a curve's edge. */
+static Status split_shared_chords(const Network& network, const CurveVertices& vertices,
+                                  Builder* builder) {
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+      const uint32_t a = segment_vertex(network, vertices, s, k);
+      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
+      TRY(builder->chord.push({a < b ? a : b, a < b ? b : a, k_none}));
+    }
+  }
+  sort(builder->chord.span(), [](const Chord& x, const Chord& y) {
+    if (x.a != y.a) return x.a < y.a;
+    return x.b != y.b ? x.b < y.b : x.patch < y.patch;
+  });
+  const Span<const Chord> chords = builder->chord.span();
+  for (size_t i = 0; i < chords.size(); ++i) {
+    const auto same = [&](size_t k) {
+      return k < chords.size() && chords[k].a == chords[i].a && chords[k].b == chords[i].b;
+    };
+    const bool shared = same(i + 1) || (i > 0 && same(i - 1));
+    if (shared && chords[i].patch != k_none) TRY(split_chord(chords[i], builder));
+  }
+  return {};
+}
+
+Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
+                    PatchMesh* mesh) {
+  Context& context = mesh->triangle.context();
+  Builder builder(context, mesh);
+  PatchScratch scratch(context);
+  Enclosure enclosure(context);
+  TRY(enclosure.find_components(network, vertices));
+  mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
+  TRY(mesh->start.copy(vertices.position.span()));
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+    TRY(at_patch(mesh_patch(network, vertices, enclosure, least_facing, p, &scratch, &builder),
+                 network, p));
+    TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
+  }
+  TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+  TRY(split_shared_chords(network, vertices, &builder));
+  TRY(mesh->shape.resize(mesh->patch.size()));
+  for (size_t t = 0; t < mesh->shape.size(); ++t) {
+    const Vec3* corner = &builder.corner[3 * t];
+    mesh->shape[t] = mesh::triangle_shape(corner[0], corner[1], corner[2]);
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_mesh.cpp ======== */
+
+/* ======== begin src/network/crease.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+/* Half-edges of the mesh by the vertex that they leave. */
+struct Corners {
+  Span<const uint32_t> triangle;
+  Array<uint32_t> start, corner;
+
+  Corners(Context& context, Span<const uint32_t> t)
+      : triangle(t), start(context), corner(context) {}
+
+  uint32_t half_edge(uint32_t from, uint32_t to) const {
+    for (uint32_t k = start[from]; k < start[from + 1]; ++k) {
+      if (triangle[mesh::next_half_edge(corner[k])] == to) return corner[k];
+    }
+    return k_none;
+  }
+};
+
+}  /* namespace */
+
+/* Calls visit(side, segment, entry, next entry, half-edge) for both sides of every edge of the */
+/* curves that has a triangle there: the normals of `side` at the half-edge's two ends are its */
+/* entries. */
+template <typename Visit>
+static void for_curve_sides(const Network& network, const CurveVertices& vertices,
+                            const Corners& corners, const Visit& visit) {
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    const uint32_t first = vertices.side_start[s];
+    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+      const uint32_t a = segment_vertex(network, vertices, s, k);
+      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
+      const uint32_t left = corners.half_edge(a, b), right = corners.half_edge(b, a);
+      if (left != k_none) visit(s, vertices.left[first + k], vertices.left[first + k + 1], left);
+      if (right != k_none)
+        visit(s, vertices.right[first + k + 1], vertices.right[first + k], right);
+    }
+  }
+}
+
+static Status cut_mesh(const Network& network, const CurveVertices& vertices,
+                       Span<const uint8_t> sharp, const Corners& corners, uint32_t count,
+                       CreasedMesh* creased) {
+  Array<uint8_t> marked(creased->held.context());
+  TRY(marked.assign(corners.triangle.size(), 0));
+  for_curve_sides(network, vertices, corners,
+                  [&](uint32_t s, const Vec3&, const Vec3&, uint32_t h) {
+                    if (sharp[network.segment[s].curve]) marked[h] = 1;
+                  });
+  return mesh::cut_open(count, corners.triangle, marked.span(), &creased->cut);
+}
+
+/* The mean of the normals known in every sector, and whether it opposes one of them. */
+static Status find_sector_normals(const Network& network, const CurveVertices& vertices,
+                                  const Corners& corners, Span<const Node> nodes,
+                                  CreasedMesh* creased) {
+  const Span<Vec3> normal = creased->normal.span();
+  const Span<const uint32_t> triangle = creased->cut.triangle.span();
+  for (Vec3& n : normal) n = Vec3{};
+  for_curve_sides(network, vertices, corners,
+                  [&](uint32_t, const Vec3& here, const Vec3& there, uint32_t h) {
+                    normal[triangle[h]] += here;
+                    normal[triangle[mesh::next_half_edge(h)]] += there;
+                  });
+  for (Vec3& n : normal) n = unit(n);
+  Status status;
+  const auto compare = [&](uint32_t s, const Vec3& n, uint32_t copy) {
+    const uint32_t v = creased->cut.origin[copy];
+    if (n == Vec3{} || dot(n, normal[copy]) > 0.0 || !status.ok()) return;
+    Place place;
+    place.curve = network.segment[s].curve;
+    if (v < nodes.size()) place.node = nodes[v].number;
+    status = fail(Code::inconsistent_normals,
+                  "the normal opposes those of the other curves of this sector of the node", place);
+  };
+  for_curve_sides(network, vertices, corners,
+                  [&](uint32_t s, const Vec3& here, const Vec3& there, uint32_t h) {
+                    compare(s, here, triangle[h]);
+                    compare(s, there, triangle[mesh::next_half_edge(h)]);
+                  });
+  return status;
+}
+
+Status cut_along_creases(const Network& network, const CurveVertices& vertices,
+                         Span<const uint8_t> sharp, Span<const Node> nodes, const PatchMesh& mesh,
+                         Span<const Vec3> position, CreasedMesh* creased) {
+  Context& context = creased->held.context();
+  Corners corners(context, mesh.triangle.span());
+  mesh::Topology topology(context);
+  Array<uint32_t> twins(context);
+  TRY(mesh::find_corners(mesh.vertices, corners.triangle, &corners.start, &corners.corner));
+  TRY(cut_mesh(network, vertices, sharp, corners, mesh.vertices, creased));
+  const uint32_t copies = creased->cut.vertices();
+  TRY(creased->position.resize(copies));
+  TRY(creased->normal.resize(copies));
+  TRY(creased->held.resize(copies));
+  TRY(creased->bare.resize(copies));
+  TRY(find_sector_normals(network, vertices, corners, nodes, creased));
+  for (uint32_t c = 0; c < copies; ++c) {
+    const uint32_t v = creased->cut.origin[c];
+    creased->position[c] = position[v];
+    creased->held[c] = v < mesh.curve_vertices;
+    creased->bare[c] = creased->held[c] && creased->normal[c] == Vec3{};
+  }
+  TRY(mesh::find_twins(copies, creased->cut.triangle.span(), &twins));
+  TRY(mesh::find_topology(copies, creased->cut.triangle.span(), twins.span(), &topology));
+  return creased->on_border.copy(topology.on_border.span());
+}
+
+void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle) {
+  for (size_t c = 0; c < creased.position.size(); ++c) {
+    position[creased.cut.origin[c]] = creased.position[c];
+  }
+  for (size_t h = 0; h < triangle.size(); ++h) {
+    triangle[h] = creased.cut.origin[creased.cut.triangle[h]];
+  }
+}
+
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const uint32_t> patch,
+                     const VertexMeasures& measures) {
+  const size_t n = measures.normal.size(), copies = creased.position.size();
+  Array<Vec3> normal(context), given(context);
+  Array<double> curvature(context), count(context);
+  TRY(normal.resize(copies));
+  TRY(count.assign(n, 0.0));
+  const Span<const uint32_t> triangle = creased.cut.triangle.span();
+  mesh::vertex_normals(creased.position.span(), triangle, normal.span());
+  TRY(mesh::mean_curvature(creased.position.span(), normal.span(), triangle,
+                           creased.on_border.span(), &curvature));
+  TRY(given.assign(copies, Vec3{}));
+  for (size_t v = 0; v < n; ++v) {
+    measures.normal[v] = measures.constraint_normal[v] = Vec3{};
+    measures.mean_curvature[v] = 0.0;
+  }
+  for (size_t c = 0; c < copies; ++c) {
+    const uint32_t v = creased.cut.origin[c];
+    measures.normal[v] += normal[c];
+    measures.mean_curvature[v] += curvature[c];
+    if (creased.held[c] && !creased.bare[c]) given[c] = creased.normal[c];
+    measures.constraint_normal[v] += given[c];
+    count[v] += 1.0;
+  }
+  for (size_t v = 0; v < n; ++v) {
+    /* The sides of a knife's edge cancel out: then the first copy's normal stands for both. */
+    const bool cancels = measures.normal[v] == Vec3{};
+    measures.normal[v] = unit(cancels ? normal[v] : measures.normal[v]);
+    measures.mean_curvature[v] /= count[v];
+    measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
+  }
+  *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
+  return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
+                               creased.held.span(), measures.dihedral);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/crease.cpp ======== */
 
 /* ======== begin src/network/plane.cpp ======== */
 namespace wireskin::network {
@@ -6595,14 +7547,32 @@ Status border_of_patch(const Network& network, const CurveVertices& vertices, ui
   return {};
 }
 
-Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Plane* plane) {
-  Vec3 positions, normals;
-  const double share = 1.0 / static_cast<double>(border.size());
-  for (uint32_t v : border) {
-    positions += share * vertices.position[v];
-    normals += share * vertices.normal[v];
+/* Twice the vector area of the border. */
+static Vec3 vector_area(const CurveVertices& vertices, Span<const uint32_t> border,
+                        const Vec3& base) {
+  Vec3 area;
+  for (size_t i = 0; i < border.size(); ++i) {
+    const uint32_t next = border[i + 1 == border.size() ? 0 : i + 1];
+    area += cross(vertices.position[border[i]] - base, vertices.position[next] - base);
   }
-  if (!(length(normals) >= k_least_mean_normal)) {
+  return area;
+}
+
+Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border,
+                 Span<const Vec3> normal, Plane* plane) {
+  Vec3 positions, normals;
+  size_t known = 0;
+  const double share = 1.0 / static_cast<double>(border.size());
+  for (size_t i = 0; i < border.size(); ++i) {
+    positions += share * vertices.position[border[i]];
+    normals += share * normal[i];
+    known += normal[i] != Vec3{};
+  }
+  if (known == 0) {
+    normals = unit(vector_area(vertices, border, positions));
+    known = border.size();
+  }
+  if (!(length(normals) >= k_least_mean_normal * share * static_cast<double>(known))) {
     return fail(Code::patch_without_plane,
                 "the normals of the patch's border cancel out, so it has no plane");
   }
@@ -6724,261 +7694,294 @@ Status Enclosure::check(const CurveVertices& vertices, Span<const uint32_t> bord
 }  /* namespace wireskin::network */
 /* ======== end src/network/enclosure.cpp ======== */
 
-/* ======== begin src/network/patch_mesh.cpp ======== */
+/* ======== begin src/network/node_normals.cpp ======== */
 namespace wireskin::network {
 
 namespace {
 
-/* An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a */
-/* curve. */
-struct Chord {
-  uint32_t a, b;
-  uint32_t patch;
+/* A stretch of curve between two nodes, with the unit tangents of the curve at its ends. */
+struct Link {
+  uint32_t from, to;
+  Vec3 first, last;
 };
 
-/* What is gathered over all patches: corner[3 t + k] is corner k of triangle t, in space or in its */
-/* patch's plane (z = 0; the same vertex then has another place in each patch). */
-struct Builder {
-  PatchMesh* mesh;
-  Array<Vec3> corner;
-  Array<Chord> chord;
-  Array<uint32_t> patch_start;  /* first triangle of each patch, before chords are split */
-
-  explicit Builder(Context& context, PatchMesh* result)
-      : mesh(result), corner(context), chord(context), patch_start(context) {}
+/* Of the tips of the unit tangents that leave a node: number, sum and the sum of their squares. */
+struct Tips {
+  double count;
+  Vec3 sum;
+  Vec3 row[3];
+  Vec3 tangent[2];  /* the first two */
 };
 
-/* Memory for one patch, reused: the border, the mesh either way, and what both come to: triangles */
-/* over border vertices 0 .. n - 1 and inner ones from n, the corners' places for the metric, and */
-/* where the inner vertices may start in space. */
-struct PatchScratch {
-  Array<uint32_t> border;
-  Array<Vec2> polygon;
-  Array<Vec3> loop, loop_normal;
-  planar::PolygonMesh planar;
-  mesh::LoopMesh spatial;
-  Array<Vec3> place;
-  Array<Vec3> inner;
-
-  explicit PatchScratch(Context& context)
-      : border(context),
-        polygon(context),
-        loop(context),
-        loop_normal(context),
-        planar(context),
-        spatial(context),
-        place(context),
-        inner(context) {}
-};
+enum class Sense : uint8_t { unknown, reached, known };
 
 }  /* namespace */
 
-/* Adds the place to what went wrong with a patch: its number and a curve of its border. */
-static Status at_patch(Status status, const Network& network, uint32_t patch) {
-  const bool geometric = status.code == Code::patch_without_plane ||
-                         status.code == Code::patch_folded ||
-                         status.code == Code::patch_several_loops;
-  if (!geometric) return status;
-  status.place.patch = patch;
-  if (status.place.curve == k_none) {
-    status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
-  }
-  return status;
-}
-
-static double mean_edge(const CurveVertices& vertices, Span<const uint32_t> border) {
-  double sum = 0.0;
-  for (size_t i = 0; i < border.size(); ++i) {
-    const size_t next = i + 1 == border.size() ? 0 : i + 1;
-    sum += length(vertices.position[border[next]] - vertices.position[border[i]]);
-  }
-  return sum / static_cast<double>(border.size());
-}
-
-static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
-                           uint32_t patch, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  const uint32_t n = static_cast<uint32_t>(scratch.border.size());
-  const auto global = [&](uint32_t v) {
-    return v < n ? scratch.border[v] : mesh->vertices + (v - n);
-  };
-  for (size_t h = 0; h < triangle.size(); ++h) {
-    const uint32_t a = triangle[h], b = triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
-    TRY(mesh->triangle.push(global(a)));
-    TRY(builder->corner.push(scratch.place[a]));
-    if (h % 3 == 0) TRY(mesh->patch.push(patch));
-    const bool on_border = (a + 1) % n == b || (b + 1) % n == a;
-    /* Each edge inside is met once in each direction; the ascending one is noted. */
-    if (a < n && b < n && !on_border && global(a) < global(b)) {
-      TRY(builder->chord.push({global(a), global(b), patch}));
+static Status find_links(const curves::Curves& curves, Array<Link>* links) {
+  for (uint32_t c = 0; c < curves.size(); ++c) {
+    const curves::Curve curve = curves[c];
+    uint32_t before = k_none;
+    for (uint32_t k = 0; k < curve.node.size(); ++k) {
+      if (curve.node[k] == k_none) continue;
+      if (before != k_none) {
+        TRY(links->push({curve.node[before], curve.node[k], unit(tangent_at_knot(curve, before)),
+                         unit(tangent_at_knot(curve, k))}));
+      }
+      before = k;
     }
   }
-  for (const Vec3& p : scratch.inner) TRY(mesh->start.push(p));
-  const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
-  if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
-    return fail(Code::too_large, "the spacing is too small for the network");
-  }
-  mesh->vertices = static_cast<uint32_t>(vertices);
   return {};
 }
 
-static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& enclosure,
-                            double spacing, double least_facing, PatchScratch* scratch) {
-  Plane plane;
-  TRY(fit_plane(vertices, scratch->border.span(), &plane));
-  const size_t n = scratch->border.size();
-  TRY(scratch->polygon.resize(n));
-  double facing = 1.0;
-  for (size_t i = 0; i < n; ++i) {
-    scratch->polygon[i] = plane.project(scratch->loop[i]);
-    const double cosine = dot(scratch->loop_normal[i], plane.normal);
-    if (cosine < facing) facing = cosine;
-  }
-  TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
-  if (facing < least_facing) {
-    return fail(Code::patch_without_plane, "the plane of the patch sees its border edge-on");
-  }
-  round_to_grid(scratch->polygon.span(), &spacing);
-  TRY(planar::mesh_polygon(scratch->border.context(), scratch->polygon.span(), spacing,
-                           &scratch->planar));
-  const Array<Vec2>& points = scratch->planar.points;
-  TRY(scratch->place.resize(points.size()));
-  TRY(scratch->inner.resize(points.size() - n));
-  for (size_t i = 0; i < points.size(); ++i) {
-    scratch->place[i] = {points[i].x, points[i].y, 0.0};
-    if (i >= n) scratch->inner[i - n] = plane.lift(points[i]);
-  }
-  return {};
+static void add_tip(const Vec3& tangent, Tips* tips) {
+  if (tips->count < 2.0) tips->tangent[tips->count > 0.0] = tangent;
+  tips->count += 1.0;
+  tips->sum += tangent;
+  tips->row[0] += tangent.x * tangent;
+  tips->row[1] += tangent.y * tangent;
+  tips->row[2] += tangent.z * tangent;
 }
 
-static Status mesh_in_space(double spacing, PatchScratch* scratch) {
-  TRY(mesh::mesh_loop(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span(),
-                      spacing, &scratch->spatial));
-  TRY(scratch->inner.copy(scratch->spatial.inner.span()));
-  TRY(scratch->place.copy(scratch->loop.span()));
-  for (const Vec3& p : scratch->inner) TRY(scratch->place.push(p));
-  return {};
+/* The eigenvector of the least eigenvalue of a symmetric matrix: the adjugate has it for its */
+/* greatest, and squaring leaves that alone. */
+static Vec3 least_eigenvector(const Vec3 (&row)[3]) {
+  Vec3 a[3] = {cross(row[1], row[2]), cross(row[2], row[0]), cross(row[0], row[1])};
+  for (int k = 0; k < 8; ++k) {
+    const double trace = a[0].x + a[1].y + a[2].z;
+    if (!(trace > 0.0)) return {};
+    Vec3 square[3];
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 r = (1.0 / trace) * a[i];
+      square[i] = (1.0 / trace) * (r.x * a[0] + r.y * a[1] + r.z * a[2]);
+    }
+    for (int i = 0; i < 3; ++i) a[i] = square[i];
+  }
+  const Vec3& xy = a[0].x >= a[1].y ? a[0] : a[1];
+  const double greatest = a[0].x >= a[1].y ? a[0].x : a[1].y;
+  return unit(greatest >= a[2].z ? xy : a[2]);
 }
 
-static Status mesh_patch(const Network& network, const CurveVertices& vertices,
-                         const Enclosure& enclosure, double least_facing, uint32_t patch,
-                         PatchScratch* scratch, Builder* builder) {
-  TRY(border_of_patch(network, vertices, patch, &scratch->border));
-  const size_t n = scratch->border.size();
-  TRY(scratch->loop.resize(n));
-  TRY(scratch->loop_normal.resize(n));
-  for (size_t i = 0; i < n; ++i) {
-    scratch->loop[i] = vertices.position[scratch->border[i]];
-    scratch->loop_normal[i] = vertices.normal[scratch->border[i]];
-  }
-  const double spacing = mean_edge(vertices, scratch->border.span());
-  const Status status = mesh_in_plane(vertices, enclosure, spacing, least_facing, scratch);
-  if (status.ok()) {
-    TRY(builder->mesh->way.push(PatchWay::plane));
-    return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
-  }
-  if (status.code != Code::patch_without_plane && status.code != Code::patch_folded) return status;
-  TRY(mesh_in_space(spacing, scratch));
-  TRY(builder->mesh->way.push(PatchWay::minimal_area));
-  return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
+/* Any vector across a unit vector. */
+static Vec3 across(const Vec3& t) {
+  return unit(std::fabs(t.x) < 0.7 ? cross(t, {1, 0, 0}) : cross(t, {0, 1, 0}));
 }
 
-/* Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the */
-/* triangle keeps one half, a new triangle takes the other. */
-static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
-  const Vec3 middle = 0.5 * (builder->corner[h] + builder->corner[next]);
-  const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
-  const Vec3 corner[3] = {middle, builder->corner[next], builder->corner[previous]};
-  for (int k = 0; k < 3; ++k) {
-    TRY(mesh->triangle.push(vertex[k]));
-    TRY(builder->corner.push(corner[k]));
+/* Two curves have only one order: any direction across them will do. */
+static Vec3 axis_of(const Tips& tips) {
+  if (tips.count < 3.0) {
+    const Vec3 normal = cross(tips.tangent[0], tips.tangent[1]);
+    return length(normal) > 0.1 ? unit(normal) : across(tips.tangent[0]);
   }
-  mesh->triangle[next] = m;
-  builder->corner[next] = middle;
-  return mesh->patch.push(mesh->patch[h / 3]);
+  const double share = 1.0 / tips.count;
+  const Vec3 row[3] = {tips.row[0] - share * tips.sum.x * tips.sum,
+                       tips.row[1] - share * tips.sum.y * tips.sum,
+                       tips.row[2] - share * tips.sum.z * tips.sum};
+  return least_eigenvector(row);
 }
 
-/* Splits the triangles [first, end) of the chord's patch that have the chord. */
-static Status split_triangles(const Chord& chord, uint32_t first, uint32_t end, uint32_t middle,
-                              Builder* builder) {
-  const PatchMesh& mesh = *builder->mesh;
-  for (uint32_t h = 3 * first; h < 3 * end; ++h) {
-    const uint32_t a = mesh.triangle[h], b = mesh.triangle[mesh::next_half_edge(h)];
-    const bool here = (a == chord.a && b == chord.b) || (a == chord.b && b == chord.a);
-    if (here && mesh.patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, builder));
-  }
-  return {};
+/* The cosine between the normal at one end of a link, carried along it to the other, and the axis */
+/* there, both taken across the curve; 0 where the curve turns back. */
+static double carried_cosine(const Vec3& normal, const Vec3& from, const Vec3& to,
+                             const Vec3& axis) {
+  const double sum = 1.0 + dot(from, to);
+  if (!(sum > 0.1)) return 0.0;
+  const Vec3 start = unit(reject(normal, from));
+  const Vec3 carried = start - (dot(to, start) / sum) * (from + to);
+  return dot(carried, unit(reject(axis, to)));
 }
 
-/* A patch's triangles are those it began with and some of those that came from earlier splits. */
-static Status split_chord(const Chord& chord, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  if (mesh->triangle.size() > 0x7fffffff) {
-    return fail(Code::too_large, "the spacing is too small for the network");
-  }
-  const uint32_t middle = mesh->vertices++;
-  TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
-  const uint32_t* own = &builder->patch_start[chord.patch];
-  const uint32_t first_split = builder->patch_start.back();
-  const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
-  TRY(split_triangles(chord, own[0], own[1], middle, builder));
-  TRY(split_triangles(chord, first_split, triangles, middle, builder));
-  return mesh->triangle.context().checkpoint();
-}
-
-/* Splits every chord that stands in two patches or beside a curve's edge. */
-static Status split_shared_chords(const Network& network, const CurveVertices& vertices,
-                                  Builder* builder) {
-  for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
-      const uint32_t a = segment_vertex(network, vertices, s, k);
-      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
-      TRY(builder->chord.push({a < b ? a : b, a < b ? b : a, k_none}));
+/* Gives every node its axis. Where the sense is known it is taken from the normal, and the normal */
+/* itself stays where it is complete or the axis tells something else. */
+static void find_axes(Span<const Tips> tips, Span<Node> nodes, Span<Sense> sense) {
+  constexpr double k_agrees = 0.05;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const bool known = nodes[i].normal != Vec3{};
+    sense[i] = known ? Sense::known : Sense::unknown;
+    if (nodes[i].certain && known) continue;
+    const Vec3 axis = axis_of(tips[i]);
+    const double cosine = dot(axis, nodes[i].normal);
+    if (!known) {
+      nodes[i].normal = axis;
+    } else if (tips[i].count > 2.0 && std::fabs(cosine) > k_agrees) {
+      nodes[i].normal = cosine > 0.0 ? axis : -axis;
     }
   }
-  sort(builder->chord.span(), [](const Chord& x, const Chord& y) {
-    if (x.a != y.a) return x.a < y.a;
-    return x.b != y.b ? x.b < y.b : x.patch < y.patch;
-  });
-  const Span<const Chord> chords = builder->chord.span();
-  for (size_t i = 0; i < chords.size(); ++i) {
-    const auto same = [&](size_t k) {
-      return k < chords.size() && chords[k].a == chords[i].a && chords[k].b == chords[i].b;
-    };
-    const bool shared = same(i + 1) || (i > 0 && same(i - 1));
-    if (shared && chords[i].patch != k_none) TRY(split_chord(chords[i], builder));
+}
+
+/* Carries the sense of those that have one to their neighbours until nothing changes. */
+static Status spread(Context& context, Span<const Link> links, Span<Node> nodes,
+                     Span<Sense> sense) {
+  constexpr double k_least_cosine = 0.2;
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const Link& link : links) {
+      if ((sense[link.from] == Sense::unknown) == (sense[link.to] == Sense::unknown)) continue;
+      const bool forward = sense[link.to] == Sense::unknown;
+      const uint32_t to = forward ? link.to : link.from, from = forward ? link.from : link.to;
+      const double cosine = carried_cosine(nodes[from].normal, forward ? link.first : link.last,
+                                           forward ? link.last : link.first, nodes[to].normal);
+      if (!(std::fabs(cosine) > k_least_cosine)) continue;
+      if (cosine < 0.0) nodes[to].normal = -nodes[to].normal;
+      sense[to] = Sense::reached;
+      changed = true;
+    }
+    TRY(context.checkpoint());
   }
   return {};
 }
 
-Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    PatchMesh* mesh) {
-  Context& context = mesh->triangle.context();
-  Builder builder(context, mesh);
-  PatchScratch scratch(context);
-  Enclosure enclosure(context);
-  TRY(enclosure.find_components(network, vertices));
-  mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
-  TRY(mesh->start.copy(vertices.position.span()));
-  for (uint32_t p = 0; p < network.patches(); ++p) {
-    TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    TRY(at_patch(mesh_patch(network, vertices, enclosure, least_facing, p, &scratch, &builder), network, p));
-    TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
+static Status fail_without_sense(const Node& node) {
+  Place place;
+  place.node = node.number;
+  return fail(Code::missing_normals,
+              "nothing tells the outer side here: no normal is known at the node, nor do its "
+              "neighbours decide it",
+              place);
+}
+
+/* Turns the nodes just reached from `seed` outward, away from their middle. */
+static Status turn_outward(uint32_t seed, Span<Sense> sense, Span<Node> nodes) {
+  Vec3 middle;
+  double count = 0.0;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (sense[i] != Sense::reached) continue;
+    middle += nodes[i].position;
+    count += 1.0;
   }
-  TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-  TRY(split_shared_chords(network, vertices, &builder));
-  TRY(mesh->shape.resize(mesh->patch.size()));
-  for (size_t t = 0; t < mesh->shape.size(); ++t) {
-    const Vec3* corner = &builder.corner[3 * t];
-    mesh->shape[t] = mesh::triangle_shape(corner[0], corner[1], corner[2]);
+  middle = (1.0 / count) * middle;
+  double outward = 0.0, whole = 0.0;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (sense[i] != Sense::reached) continue;
+    outward += dot(nodes[i].normal, nodes[i].position - middle);
+    whole += length(nodes[i].position - middle);
+  }
+  constexpr double k_clearly = 0.1;
+  if (!(std::fabs(outward) > k_clearly * whole)) return fail_without_sense(nodes[seed]);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (sense[i] != Sense::reached) continue;
+    sense[i] = Sense::known;
+    if (outward < 0.0) nodes[i].normal = -nodes[i].normal;
+  }
+  return {};
+}
+
+Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes) {
+  Context& context = curves.start.context();
+  Array<Link> links(context);
+  Array<Tips> tips(context);
+  Array<Sense> sense(context);
+  TRY(find_links(curves, &links));
+  TRY(tips.assign(nodes.size(), Tips{}));
+  TRY(sense.resize(nodes.size()));
+  for (const Link& link : links) {
+    add_tip(link.first, &tips[link.from]);
+    add_tip(-link.last, &tips[link.to]);
+  }
+  find_axes(tips.span(), nodes, sense.span());
+  TRY(spread(context, links.span(), nodes, sense.span()));
+  for (Sense& s : sense) s = s == Sense::reached ? Sense::known : s;
+  for (uint32_t i = 0; i < nodes.size(); ++i) {
+    if (sense[i] != Sense::unknown || tips[i].count < 3.0) continue;
+    for (const Link& link : links) {
+      const bool decided = (link.from == i && sense[link.to] == Sense::known) ||
+                           (link.to == i && sense[link.from] == Sense::known);
+      if (decided) return fail_without_sense(nodes[i]);
+    }
+    sense[i] = Sense::reached;
+    TRY(spread(context, links.span(), nodes, sense.span()));
+    TRY(turn_outward(i, sense.span(), nodes));
   }
   return {};
 }
 
 }  /* namespace wireskin::network */
-/* ======== end src/network/patch_mesh.cpp ======== */
+/* ======== end src/network/node_normals.cpp ======== */
+
+/* ======== begin src/network/side_normals.cpp ======== */
+namespace wireskin::network {
+
+/* The normals of one side of segment s, `curve` being its curve as seen from there. */
+static Status fill_side(const curves::Curve& curve, const Segment& segment, Span<Vec3> side) {
+  const size_t edges = side.size() - 1;
+  const double from = curve.arc[segment.first_knot];
+  const double length = curve.arc[segment.last_knot] - from;
+  side[0] = curve.normal.value[segment.first_knot];
+  side[edges] = curve.normal.value[segment.last_knot];
+  if (!has_normals(curve)) {
+    for (Vec3& n : side) n = Vec3{};
+    return {};
+  }
+  for (size_t k = 1; k < edges; ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(edges);
+    side[k] = point_at(curve, segment.first_knot, segment.last_knot, from + part * length).normal;
+    if (dot(side[k], side[k]) > 0.5) continue;
+    return fail_at_sample(Code::inconsistent_normals,
+                          "the normals of neighbouring samples cancel out", segment.curve,
+                          curve.sample[segment.first_knot]);
+  }
+  return {};
+}
+
+Status resample_sides(const curves::Curves& curves, const Network& network,
+                      CurveVertices* vertices) {
+  const size_t segments = network.segment.size();
+  TRY(vertices->side_start.resize(segments + 1));
+  uint32_t total = 0;
+  for (size_t s = 0; s < segments; ++s) {
+    vertices->side_start[s] = total;
+    total += vertices->edges[s] + 1;
+  }
+  vertices->side_start[segments] = total;
+  TRY(vertices->left.resize(total));
+  TRY(vertices->right.resize(total));
+  for (uint32_t s = 0; s < segments; ++s) {
+    const Segment& segment = network.segment[s];
+    const size_t first = vertices->side_start[s], count = size_t{vertices->edges[s]} + 1;
+    const Span<Vec3> left = vertices->left.span().part(first, count);
+    const Span<Vec3> right = vertices->right.span().part(first, count);
+    TRY(fill_side(curves[segment.curve], segment, left));
+    TRY(fill_side(seen_from_right(curves, segment.curve), segment, right));
+    for (uint32_t k = 0; k < count; ++k) {
+      const uint32_t v = segment_vertex(network, *vertices, s, k);
+      const bool inside = segment.from == k_none || (k > 0 && k + 1 < count);
+      if (inside && left[k] != right[k]) vertices->normal[v] = unit(left[k] + right[k]);
+    }
+    TRY(vertices->left.context().checkpoint());
+  }
+  return {};
+}
+
+/* The normal on the left of half-segment h at its vertex k, counted in its own direction. */
+static const Vec3& left_normal(const CurveVertices& vertices, uint32_t h, uint32_t k) {
+  const uint32_t s = h / 2, first = vertices.side_start[s];
+  return h % 2 == 0 ? vertices.left[first + k] : vertices.right[first + vertices.edges[s] - k];
+}
+
+Status normals_of_border(const Network& network, const CurveVertices& vertices, uint32_t p,
+                         Array<Vec3>* normals) {
+  const Span<const uint32_t> cycle = network.cycle(p);
+  normals->clear();
+  for (size_t i = 0; i < cycle.size(); ++i) {
+    const uint32_t h = cycle[i], before = cycle[i == 0 ? cycle.size() - 1 : i - 1];
+    const uint32_t s = h / 2, edges = vertices.edges[s];
+    for (uint32_t k = 0; k < edges; ++k) {
+      if (vertices.side_start.empty()) {
+        const uint32_t v = segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k);
+        TRY(normals->push(vertices.normal[v]));
+      } else if (k > 0) {
+        TRY(normals->push(left_normal(vertices, h, k)));
+      } else {
+        TRY(normals->push(unit(left_normal(vertices, before, vertices.edges[before / 2]) +
+                               left_normal(vertices, h, 0))));
+      }
+    }
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/side_normals.cpp ======== */
 
 /* ======== begin src/planar/polygon_mesh.cpp ======== */
 namespace wireskin::planar {
@@ -9245,6 +10248,9 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
 /* ======== begin src/smooth/displace.cpp ======== */
 namespace wireskin::smooth {
 
+/* The weight of the pull of h towards zero at bare vertices. */
+static constexpr double k_bare_pull = 1e-6;
+
 namespace {
 
 /* The mesh cut open along the curves: vertices on curves have a copy in every patch. */
@@ -9368,7 +10374,7 @@ static void sort_column(size_t first, sparse::Csc* matrix) {
 /* The matrix of the least squares problem: first the rows of the split mesh, then one row a vertex */
 /* for the Laplacian of h, then one a vertex for the springs. Columns are the unknowns, u and h of a */
 /* vertex next to each other. */
-Status MinimumVariation::make_rows(const sparse::Csc& split_laplacian,
+Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
                                    Span<const double> split_area, Span<const uint32_t> origin,
                                    const sparse::Csc& laplacian, sparse::Csc* rows) const {
   const uint32_t n = laplacian.cols, split = split_laplacian.cols;
@@ -9392,7 +10398,8 @@ Status MinimumVariation::make_rows(const sparse::Csc& split_laplacian,
       rows->start[column++] = static_cast<uint32_t>(first);
       for (uint32_t copy = first_copy; copy < end_copy; ++copy) {
         for (uint32_t p = split_laplacian.start[copy]; p < split_laplacian.start[copy + 1]; ++p) {
-          add(split_laplacian.row[p], split_laplacian.value[p]);
+          const uint32_t row = split_laplacian.row[p];
+          if (!input.is_bare(origin[row])) add(row, split_laplacian.value[p]);
         }
       }
       sort_column(first, rows);
@@ -9421,10 +10428,15 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
     }
     weight[r] = 1.0 / split.area[r];
     target[r] = -dot(sum, split.normal[r]);
+    if (input.is_bare(split.origin[r])) {
+      weight[r] *= k_bare_pull;
+      target[r] = 0.0;
+    }
   }
   const uint32_t n = static_cast<uint32_t>(area.size());
   for (uint32_t v = 0; v < n; ++v) {
-    weight[split.vertices + v] = input.on_border[v] ? 0.0 : length2 * length2 / area[v];
+    const bool left_out = input.on_border[v] && !input.is_bare(v);
+    weight[split.vertices + v] = left_out ? 0.0 : length2 * length2 / area[v];
     target[split.vertices + v] = 0.0;
     const uint32_t r = split.vertices + n + v;
     const bool pulled = input.soft.any() && input.soft.cutoff[v] > 0.0;
@@ -9506,7 +10518,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   SplitMesh split(context_);
   mesh::vertex_normals(input.position, input.triangle, normal);
   for (uint32_t v = 0; v < n; ++v) {
-    if (input.on_curve[v]) normal[v] = input.curve_normal[v];
+    if (input.on_curve[v] && !input.is_bare(v)) normal[v] = input.curve_normal[v];
   }
   TRY(mesh::triangle_shapes(input.position, input.triangle, &shapes));
   TRY(make_split_mesh(input, normal, shapes.span(), &split));
@@ -9514,7 +10526,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   mesh::mixed_voronoi_areas(input.triangle, shapes.span(), area.span());
   TRY(mesh::cotangent_laplacian(n, input.triangle, shapes.span(), &laplacian));
   TRY(number_unknowns(input.held));
-  TRY(make_rows(split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
+  TRY(make_rows(input, split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
   TRY(weight.resize(rows.rows));
   TRY(target.resize(rows.rows));
   make_targets(input, split, area.span(), normal, weight.span(), target.span());
@@ -9725,7 +10737,7 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
   report->flips += flips;
   TRY(mesh::triangle_shapes(mesh.position, mesh.triangle, shapes));
   const Domain domain = {mesh.triangle,  shapes->span(), mesh.on_curve, mesh.held,
-                         mesh.on_border, Metric::space,  mesh.soft};
+                         mesh.on_border, Metric::space,  mesh.soft,     mesh.bare};
   return smooth(context, domain, Method::stanko, {mesh.position, mesh.normal}, &report->residual);
 }
 
@@ -9800,9 +10812,9 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
   report->flips += flips;
   TRY(direction.resize(n));
   TRY(step.resize(n));
-  const DisplaceInput input = {mesh.position,  curve_normal,     mesh.triangle,
-                               mesh.patch,     mesh.on_curve,    mesh.held,
-                               mesh.on_border, smoothing_length, mesh.soft};
+  const DisplaceInput input = {mesh.position, curve_normal, mesh.triangle,  mesh.patch,
+                               mesh.on_curve, mesh.held,    mesh.on_border, smoothing_length,
+                               mesh.soft,     mesh.bare};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {
@@ -10335,6 +11347,8 @@ struct CurveStorage {
   Array<uint32_t> number;
   Array<uint8_t> closed, boundary;
   Array<double> soft;
+  Array<uint8_t> sharp;  /* empty where no curve is */
+  Array<Vec3> right;
 
   explicit CurveStorage(Context& context)
       : start(context),
@@ -10343,11 +11357,14 @@ struct CurveStorage {
         number(context),
         closed(context),
         boundary(context),
-        soft(context) {}
+        soft(context),
+        sharp(context),
+        right(context) {}
 };
 
-static Status count_samples(const wsk_curve* curves, size_t count, size_t* total) {
+static Status count_samples(const wsk_curve* curves, size_t count, size_t* total, bool* sharp) {
   *total = 0;
+  *sharp = false;
   for (size_t c = 0; c < count; ++c) {
     Place place;
     place.curve = static_cast<uint32_t>(c);
@@ -10361,7 +11378,8 @@ static Status count_samples(const wsk_curve* curves, size_t count, size_t* total
     if (curve.positions == nullptr) {
       return fail(Code::bad_argument, "the curve has no positions", place);
     }
-    if (curve.normals == nullptr) {
+    *sharp = *sharp || curve.sharp != 0;
+    if (curve.normals == nullptr && curve.sharp == 0) {
       return fail(Code::missing_normals, "the curve has no normals", place);
     }
     if (curve.soft - curve.soft != 0.0) {
@@ -10372,19 +11390,29 @@ static Status count_samples(const wsk_curve* curves, size_t count, size_t* total
   return {};
 }
 
+/* A normal of one side of a sharp curve; zero where the side has none. */
+static Status read_side_normal(const double* data, size_t stride, size_t i, const Place& place,
+                               Vec3* normal) {
+  *normal = Vec3{};
+  return data == nullptr ? Status{} : read_normal({data, stride}, i, place, normal);
+}
+
 static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* storage) {
   const Rows positions = {curve.positions, curve.position_stride};
-  const Rows normals = {curve.normals, curve.normal_stride};
   for (size_t i = 0; i < curve.sample_count; ++i) {
     Place place;
     place.curve = index;
     place.sample = static_cast<uint32_t>(i);
     Vec3 position, normal;
     TRY(read_position(positions, i, place, &position));
-    TRY(read_normal(normals, i, place, &normal));
+    TRY(read_side_normal(curve.normals, curve.normal_stride, i, place, &normal));
     storage->position.push_reserved(position);
     storage->normal.push_reserved(normal);
     storage->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
+    if (storage->sharp.empty()) continue;
+    const double* right = curve.sharp != 0 ? curve.normals_right : nullptr;
+    TRY(read_side_normal(right, curve.normal_right_stride, i, place, &normal));
+    storage->right.push_reserved(normal);
   }
   storage->closed.push_reserved(curve.closed != 0);
   storage->boundary.push_reserved(curve.boundary != 0);
@@ -10398,7 +11426,8 @@ static Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* s
   if (count == 0) return fail(Code::empty, "there are no curves");
   if (curves == nullptr) return fail(Code::bad_argument, "the curves are null");
   if (count >= k_none) return fail(Code::too_large, "too many curves for 32-bit indices");
-  TRY(count_samples(curves, count, &total));
+  bool sharp = false;
+  TRY(count_samples(curves, count, &total, &sharp));
   TRY(storage->start.reserve(count + 1));
   TRY(storage->closed.reserve(count));
   TRY(storage->boundary.reserve(count));
@@ -10406,6 +11435,11 @@ static Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* s
   TRY(storage->position.reserve(total));
   TRY(storage->normal.reserve(total));
   TRY(storage->number.reserve(total));
+  if (sharp) {
+    TRY(storage->sharp.resize(count));
+    TRY(storage->right.reserve(total));
+    for (size_t c = 0; c < count; ++c) storage->sharp[c] = curves[c].sharp != 0;
+  }
   storage->start.push_reserved(0);
   for (size_t c = 0; c < count; ++c) {
     TRY(read_curve(curves[c], static_cast<uint32_t>(c), storage));
@@ -10561,7 +11595,7 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   }
   const CurveSet set = {storage.start.span(),  storage.position.span(), storage.normal.span(),
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
-                        storage.soft.span()};
+                        storage.soft.span(),   storage.sharp.span(),   storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
                              smoothing_of(options, scale)};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  /* zero would mean the default */

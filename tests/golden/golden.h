@@ -19,8 +19,8 @@ inline constexpr Golden k_golden[] = {
     {"octants", WSK_METHOD_BIHARMONIC, 0x84cfcf068738117cu},
     {"octants", WSK_METHOD_TRIHARMONIC, 0x3644d899adc2c920u},
     {"octants", WSK_METHOD_CLAMPED, 0xc955dbd913d36d0eu},
-    {"octants", WSK_METHOD_ITERATED, 0},
-    {"noisy", WSK_METHOD_FAIR, 0},
-    {"band", WSK_METHOD_FAIR, 0},
-    {"saddle", WSK_METHOD_FAIR, 0},
+    {"octants", WSK_METHOD_ITERATED, 0xcd1530772c5b0006u},
+    {"noisy", WSK_METHOD_FAIR, 0xe99db8eb29254240u},
+    {"band", WSK_METHOD_FAIR, 0x743514c6f40d67e1u},
+    {"saddle", WSK_METHOD_FAIR, 0x63f5c9078edd2929u},
 };

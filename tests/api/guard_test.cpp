@@ -1,0 +1,83 @@
+// The guard of the fair method: a patch that holds a whole feature, of which its border tells
+// nothing, keeps what the paper's steps gave instead of running away.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/call.h"
+
+using namespace scenes;
+
+// A circle whose normals point outwards and slightly up: the surface it asks for is a deep bulge.
+static Scene rim(double up) {
+  Scene scene;
+  scene.name = "rim";
+  scene.spacing = 0.1;
+  scene.method = WSK_METHOD_FAIR;
+  Curve circle;
+  circle.closed = circle.boundary = true;
+  for (int i = 0; i < 64; ++i) {
+    const double a = 2.0 * M_PI * i / 64.0, x = std::cos(a), y = std::sin(a);
+    circle.positions.insert(circle.positions.end(), {x, y, 0.0});
+    circle.normals.insert(circle.normals.end(), {x, y, up});
+    circle.nodes.push_back(WSK_NONE);
+  }
+  scene.curves.push_back(circle);
+  return scene;
+}
+
+// The equator of a sphere, its two halves curves of their own: both hemispheres start as the same
+// flat disc, and what the normals ask for is out of reach of one linear step.
+static Scene equator() {
+  Scene whole = rim(0.0), scene = rim(0.0);
+  scene.name = "equator";
+  scene.curves.clear();
+  for (int half = 0; half < 2; ++half) {
+    Curve curve;
+    for (int i = 0; i <= 32; ++i) {
+      const size_t at = 3 * static_cast<size_t>((32 * half + i) % 64);
+      for (size_t k = 0; k < 3; ++k) {
+        curve.positions.push_back(whole.curves[0].positions[at + k]);
+        curve.normals.push_back(whole.curves[0].normals[at + k]);
+      }
+      curve.nodes.push_back(i == 0 || i == 32 ? static_cast<uint32_t>((half + (i == 32)) % 2)
+                                              : WSK_NONE);
+    }
+    scene.curves.push_back(curve);
+  }
+  return scene;
+}
+
+static Call built(const Scene& scene, wsk_method method) {
+  wsk_options options = options_of(scene);
+  options.method = method;
+  options.smoothing = WSK_SMOOTHING_NONE;
+  return watched_scene(scene, options);
+}
+
+TEST_CASE("a patch whose displacement runs away keeps what the paper's steps gave") {
+  const Scene scene = equator();
+  const Call fair = built(scene, WSK_METHOD_FAIR);
+  REQUIRE(fair.status == WSK_OK);
+  CHECK(fair.report.patches == 2);
+  CHECK(fair.report.guarded_patches == 2);
+  const Call iterated = built(scene, WSK_METHOD_ITERATED);
+  REQUIRE(iterated.status == WSK_OK);
+  CHECK(iterated.report.guarded_patches == 0);
+  CHECK(fair.result.positions == iterated.result.positions);
+  CHECK(fair.result.triangles == iterated.result.triangles);
+}
+
+TEST_CASE("a patch that its border describes is not held back") {
+  const Call cap = built(rim(1.5), WSK_METHOD_FAIR);
+  REQUIRE(cap.status == WSK_OK);
+  CHECK(cap.report.guarded_patches == 0);
+  // The sphere through the circle with these normals: radius sqrt(1 + 1.5^2), centre below.
+  const double radius = std::sqrt(1.0 + 1.5 * 1.5);
+  double worst = 0.0;
+  for (size_t i = 0; i < cap.result.positions.size(); i += 3) {
+    const double* p = &cap.result.positions[i];
+    worst = std::fmax(worst, std::fabs(std::hypot(p[0], p[1], p[2] + 1.5) - radius));
+  }
+  CHECK(worst < 2e-3);
+}
