@@ -5,24 +5,20 @@
 
 namespace accuracy {
 
-using networks::Point;
-// Operators on points live beside them and are not found for std::array otherwise.
-using networks::operator-;
-using networks::operator+;
-using networks::operator*;
+using namespace networks;  // its operators on points are not found otherwise
 
 static double distance_to_segment(const Point& p, const Point& a, const Point& b) {
   const Point d = b - a;
   const double t = std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0);
-  return networks::distance(p, a + t * d);
+  return distance(p, a + t * d);
 }
 
 double distance_to_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
-  const Point n = networks::unit(networks::cross(b - a, c - a));
-  const double height = networks::dot(p - a, n);
+  const Point n = unit(cross(b - a, c - a));
+  const double height = dot(p - a, n);
   const Point q = p - height * n;
   const auto left_of = [&](const Point& from, const Point& to) {
-    return networks::dot(networks::cross(to - from, q - from), n) >= 0.0;
+    return dot(cross(to - from, q - from), n) >= 0.0;
   };
   if (left_of(a, b) && left_of(b, c) && left_of(c, a)) return std::fabs(height);
   return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c),
@@ -34,10 +30,10 @@ static double distance_to_box(const Point& p, const Point& low, const Point& hig
   for (size_t k = 0; k < 3; ++k) {
     outside[k] = std::max({low[k] - p[k], 0.0, p[k] - high[k]});
   }
-  return networks::length(outside);
+  return length(outside);
 }
 
-MeshDistance::MeshDistance(const networks::Mesh& mesh)
+MeshDistance::MeshDistance(const Mesh& mesh)
     : mesh_(mesh), order_(mesh.triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   split(0, static_cast<uint32_t>(order_.size()));
@@ -78,20 +74,20 @@ void MeshDistance::search(uint32_t index, const Point& p, Nearest& best) const {
   if (box.second == 0) {
     for (uint32_t i = box.first; i < box.first + box.count; ++i) {
       const auto& t = mesh_.triangles[order_[i]];
-      const double distance = distance_to_triangle(p, mesh_.positions[t[0]], mesh_.positions[t[1]],
+      const double found = distance_to_triangle(p, mesh_.positions[t[0]], mesh_.positions[t[1]],
                                                    mesh_.positions[t[2]]);
-      if (distance < best.distance) best = {distance, order_[i]};
+      if (found < best.distance) best = {found, order_[i]};
     }
     return;
   }
   uint32_t child[2] = {index + 1, box.second};
-  double distance[2];
+  double reach[2];
   for (int k = 0; k < 2; ++k) {
-    distance[k] = distance_to_box(p, boxes_[child[k]].low, boxes_[child[k]].high);
+    reach[k] = distance_to_box(p, boxes_[child[k]].low, boxes_[child[k]].high);
   }
-  const int nearer = distance[1] < distance[0] ? 1 : 0;
+  const int nearer = reach[1] < reach[0] ? 1 : 0;
   for (int k : {nearer, 1 - nearer}) {
-    if (distance[k] < best.distance) search(child[k], p, best);
+    if (reach[k] < best.distance) search(child[k], p, best);
   }
 }
 
@@ -104,12 +100,12 @@ MeshDistance::Nearest MeshDistance::nearest(const Point& p) const {
 Point MeshDistance::triangle_normal(uint32_t triangle) const {
   const auto& t = mesh_.triangles[triangle];
   const Point& a = mesh_.positions[t[0]];
-  return networks::unit(
-      networks::cross(mesh_.positions[t[1]] - a, mesh_.positions[t[2]] - a));
+  return unit(
+      cross(mesh_.positions[t[1]] - a, mesh_.positions[t[2]] - a));
 }
 
 double MeshDistance::diagonal() const {
-  return networks::distance(boxes_[0].low, boxes_[0].high);
+  return distance(boxes_[0].low, boxes_[0].high);
 }
 
 }  // namespace accuracy
