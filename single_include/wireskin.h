@@ -515,7 +515,7 @@ inline Vec3 reject(const Vec3& a, const Vec3& n) {
 }  /* namespace wireskin */
 /* ======== end src/num/vec.h ======== */
 
-/* ======== begin src/scale.h ======== */
+/* ======== begin src/num/scale.h ======== */
 /* Scaling by exact powers of two: the C boundary brings every input to an extent of about one and */
 /* undoes it at the end, so that no stage sees 1e-150 or 1e150. Multiplying by a power of two rounds */
 /* nothing (short of underflow 300 orders of magnitude below the extent); a shift would, so there is */
@@ -555,7 +555,7 @@ class Scale {
 };
 
 }  /* namespace wireskin */
-/* ======== end src/scale.h ======== */
+/* ======== end src/num/scale.h ======== */
 
 /* ======== begin src/base/status.h ======== */
 /* What a failable function returns: a code, one English sentence and the place in the caller's */
@@ -1587,6 +1587,7 @@ struct CurveVertices {
   Array<uint32_t> curve;  /* of each vertex; at a node the least */
   Array<uint32_t> edges;  /* of each segment */
   Array<uint32_t> first;  /* of each segment: its first inner vertex */
+  uint32_t nodes = 0;     /* the first vertices */
   double length = 0.0;    /* of all segments together */
 
   explicit CurveVertices(Context& context)
@@ -1627,6 +1628,11 @@ Status border_of_patch(const Network& network, const CurveVertices& vertices, ui
 
 /* Fails with patch_without_plane (no place) where the normals cancel out. */
 Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Plane* plane);
+
+/* Rounds plane coordinates, and a spacing, to a grid of 2^-32 of the polygon's extent. Which */
+/* triangles a patch gets then does not hang on the last bits of its border, which depend on the */
+/* direction in which curves were given. */
+void round_to_grid(Span<Vec2> polygon, double* spacing);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/plane.h ======== */
@@ -3621,7 +3627,11 @@ CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s)
     t = inside < whole ? parameter_of_arc(curve.position, low, inside, whole)
                        : curve.position.knot[low + 1];
   }
-  return {spline_value(curve.position, low, t), unit(spline_value(curve.normal, low, t))};
+  /* Of normals that nearly cancel out rounding leaves some direction, which means nothing. */
+  constexpr double k_least_normal = 1e-3;
+  const Vec3 normal = spline_value(curve.normal, low, t);
+  const bool cancels = !(dot(normal, normal) > k_least_normal * k_least_normal);
+  return {spline_value(curve.position, low, t), cancels ? Vec3{} : unit(normal)};
 }
 
 Vec3 tangent_at_knot(const Curve& curve, uint32_t knot) {
@@ -4220,6 +4230,7 @@ static Status place_vertices(const curves::Curves& curves, const Network& networ
 
 Status resample(const curves::Curves& curves, Span<const Node> nodes, const Network& network,
                 double spacing, CurveVertices* vertices) {
+  vertices->nodes = static_cast<uint32_t>(nodes.size());
   TRY(count_edges(curves, network, nodes.size(), spacing, vertices));
   for (size_t i = 0; i < nodes.size(); ++i) {
     vertices->position[i] = nodes[i].position;
@@ -4241,15 +4252,30 @@ namespace wireskin::network {
 /* The mean of unit normals must be at least this long for its direction to mean anything. */
 static constexpr double k_least_mean_normal = 0.05;
 
+/* Where a border begins must not depend on the order or the direction of the curves, or these would */
+/* change the triangulation: at its least point, nodes (whose bits are the caller's) before others. */
+static bool begins_before(const CurveVertices& vertices, uint32_t nodes, uint32_t a, uint32_t b) {
+  if ((a < nodes) != (b < nodes)) return a < nodes;
+  const Vec3 &p = vertices.position[a], &q = vertices.position[b];
+  if (p.x != q.x) return p.x < q.x;
+  return p.y != q.y ? p.y < q.y : p.z < q.z;
+}
+
 Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t p,
                        Array<uint32_t>* border) {
-  border->clear();
+  Array<uint32_t> round(border->context());
   for (uint32_t h : network.cycle(p)) {
     const uint32_t s = h / 2, edges = vertices.edges[s];
     for (uint32_t k = 0; k < edges; ++k) {
-      TRY(border->push(segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)));
+      TRY(round.push(segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)));
     }
   }
+  size_t first = 0;
+  for (size_t i = 1; i < round.size(); ++i) {
+    if (begins_before(vertices, vertices.nodes, round[i], round[first])) first = i;
+  }
+  TRY(border->resize(round.size()));
+  for (size_t i = 0; i < round.size(); ++i) (*border)[i] = round[(first + i) % round.size()];
   return {};
 }
 
@@ -4277,6 +4303,30 @@ Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Pla
   plane->u = unit(axis);
   plane->v = cross(plane->normal, plane->u);
   return {};
+}
+
+static double nearest_multiple(double x, const Scale& to_grid, const Scale& from_grid) {
+  const double steps = to_grid(x);
+  return from_grid(
+      static_cast<double>(static_cast<int64_t>(steps < 0.0 ? steps - 0.5 : steps + 0.5)));
+}
+
+void round_to_grid(Span<Vec2> polygon, double* spacing) {
+  constexpr int k_bits = 32;
+  double extent = 0.0;
+  for (const Vec2& p : polygon) {
+    const double x = std::fabs(p.x), y = std::fabs(p.y);
+    extent = x > extent ? x : extent;
+    extent = y > extent ? y : extent;
+  }
+  if (!(extent > 0.0) || !(*spacing < 16.0 * extent)) return;
+  const int exponent = binary_exponent(extent);
+  const Scale to_grid(k_bits - exponent), from_grid(exponent - k_bits);
+  for (Vec2& p : polygon) {
+    p = {nearest_multiple(p.x, to_grid, from_grid), nearest_multiple(p.y, to_grid, from_grid)};
+  }
+  const double rounded = nearest_multiple(*spacing, to_grid, from_grid);
+  if (rounded > 0.0) *spacing = rounded;
 }
 
 }  /* namespace wireskin::network */
@@ -4454,8 +4504,9 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
     scratch->polygon[i] = plane.project(vertices.position[scratch->border[i]]);
   }
   TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
-  TRY(planar::mesh_polygon(context, scratch->polygon.span(),
-                           mean_edge(vertices, scratch->border.span()), &scratch->planar));
+  double spacing = mean_edge(vertices, scratch->border.span());
+  round_to_grid(scratch->polygon.span(), &spacing);
+  TRY(planar::mesh_polygon(context, scratch->polygon.span(), spacing, &scratch->planar));
   return append_patch(*scratch, patch, builder);
 }
 

@@ -2,7 +2,7 @@
 // and fills result and report. The only file that sees both the public header and the inside.
 #include <cstdlib>
 
-#include "scale.h"
+#include "num/scale.h"
 #include "surface.h"
 #include "wireskin.h"
 
@@ -13,14 +13,13 @@ struct wsk_surface {
   wsk_surface_view view;
 };
 
-namespace wireskin { extern uint32_t g_debug[2]; }
 namespace wireskin::api {
 
 static_assert(k_none == WSK_NONE && k_stage_count == WSK_STAGE_COUNT);
 static_assert(static_cast<int>(Code::not_positive_definite) == WSK_ERROR_NOT_POSITIVE_DEFINITE);
 static_assert(static_cast<int>(Code::open_network) == WSK_ERROR_OPEN_NETWORK);
 static_assert(static_cast<int>(Stage::result) == WSK_STAGE_RESULT);
-static_assert(static_cast<int>(smooth::Method::clamped) == WSK_METHOD_CLAMPED);
+static_assert(static_cast<int>(smooth::Method::fair) == WSK_METHOD_FAIR);
 
 // Structs of the first release; a smaller size means that the caller forgot to initialise.
 static constexpr size_t k_options_size = offsetof(wsk_options, now_user) + sizeof(void*);
@@ -51,6 +50,15 @@ static Status read_options(const wsk_options* given, wsk_options* options) {
   }
   if (!(options->spacing >= 0.0 && options->spacing - options->spacing == 0.0)) {
     return fail(Code::bad_argument, "the spacing is negative or not finite");
+  }
+  if (options->smoothing < 0 || options->smoothing >= WSK_SMOOTHING_COUNT) {
+    return fail(Code::bad_argument, "the options name an unknown smoothing");
+  }
+  if (!(options->noise >= 0.0 && options->noise - options->noise == 0.0)) {
+    return fail(Code::bad_argument, "the noise is negative or not finite");
+  }
+  if (!(options->soft >= 0.0 && options->soft - options->soft == 0.0)) {
+    return fail(Code::bad_argument, "the cutoff length is negative or not finite");
   }
   if ((options->allocate == nullptr) != (options->release == nullptr)) {
     return fail(Code::bad_argument, "the options have an allocate or a release without the other");
@@ -92,13 +100,24 @@ static void report_counts(const Counts& counts, const Scale& unscale, wsk_report
   report->euler_characteristic = counts.euler_characteristic;
   report->spacing = unscale(counts.spacing);
   report->min_angle_deg = counts.least_angle;
-  report->residual = counts.residual; g_debug[0]=counts.factorisations; g_debug[1]=counts.iterations;
+  report->residual = counts.residual;
+  report->noise_position = unscale(counts.noise.sigma_position);
+  report->noise_normal = counts.noise.sigma_normal;
+  report->cg_iterations = counts.iterations;
+  report->guarded_patches = counts.guarded_patches;
+  report->constraint_distance_max = unscale(counts.greatest_distance);
+  report->constraint_distance_rms = unscale(std::sqrt(counts.mean_square_distance));
+  report->normal_deviation_mean_deg = counts.normal_deviation.mean;
+  report->normal_deviation_max_deg = counts.normal_deviation.greatest;
+  report->dihedral_mean_deg = counts.dihedral.mean;
+  report->dihedral_max_deg = counts.dihedral.greatest;
 }
 
 static void report_costs(Context& context, wsk_report* report) {
   context.stop_clock();
   report->stage = static_cast<wsk_stage>(context.stage());
   report->peak_bytes = context.peak_bytes();
+  report->factorisations = context.factorisations();
   for (int s = 0; s < WSK_STAGE_COUNT; ++s) {
     report->stage_ms[s] = context.milliseconds(s);
     report->total_ms += report->stage_ms[s];
@@ -189,6 +208,7 @@ struct CurveStorage {
   Array<Vec3> position, normal;
   Array<uint32_t> number;
   Array<uint8_t> closed, boundary;
+  Array<double> soft;
 
   explicit CurveStorage(Context& context)
       : start(context),
@@ -196,7 +216,8 @@ struct CurveStorage {
         normal(context),
         number(context),
         closed(context),
-        boundary(context) {}
+        boundary(context),
+        soft(context) {}
 };
 
 static Status count_samples(const wsk_curve* curves, size_t count, size_t* total) {
@@ -216,6 +237,9 @@ static Status count_samples(const wsk_curve* curves, size_t count, size_t* total
     }
     if (curve.normals == nullptr) {
       return fail(Code::missing_normals, "the curve has no normals", place);
+    }
+    if (curve.soft - curve.soft != 0.0) {
+      return fail(Code::bad_argument, "the cutoff length of the curve is not finite", place);
     }
     *total += curve.sample_count;
   }
@@ -238,6 +262,7 @@ static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* s
   }
   storage->closed.push_reserved(curve.closed != 0);
   storage->boundary.push_reserved(curve.boundary != 0);
+  storage->soft.push_reserved(curve.soft);
   storage->start.push_reserved(static_cast<uint32_t>(storage->position.size()));
   return {};
 }
@@ -251,6 +276,7 @@ static Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* s
   TRY(storage->start.reserve(count + 1));
   TRY(storage->closed.reserve(count));
   TRY(storage->boundary.reserve(count));
+  TRY(storage->soft.reserve(count));
   TRY(storage->position.reserve(total));
   TRY(storage->normal.reserve(total));
   TRY(storage->number.reserve(total));
@@ -341,6 +367,7 @@ static Status make_handle(Context& context, const Surface& surface, int exponent
   const size_t positions = layout.add_array<double>(3 * n);
   const size_t normals = layout.add_array<double>(3 * n);
   const size_t curvature = layout.add_array<double>(n);
+  const size_t gaussian = layout.add_array<double>(n);
   const size_t constraint = layout.add_array<double>(3 * n);
   const size_t vertex_curve = layout.add_array<uint32_t>(n);
   const size_t triangle = layout.add_array<uint32_t>(3 * triangles);
@@ -367,6 +394,9 @@ static Status make_handle(Context& context, const Surface& surface, int exponent
   double* h = reinterpret_cast<double*>(block + curvature);
   for (size_t v = 0; v < n; ++v) h[v] = curvatures(surface.mean_curvature[v]);
   view.mean_curvature = h;
+  double* k = reinterpret_cast<double*>(block + gaussian);
+  for (size_t v = 0; v < n; ++v) k[v] = curvatures(curvatures(surface.gaussian_curvature[v]));
+  view.gaussian_curvature = k;
   view.vertex_curve = write_indices(block, vertex_curve, surface.vertex_curve);
   view.triangles = write_indices(block, triangle, surface.triangle);
   view.triangle_patch = write_indices(block, patch, surface.patch);
@@ -378,6 +408,18 @@ static Status make_handle(Context& context, const Surface& surface, int exponent
 
 // ---- The two tasks ------------------------------------------------------------------------------
 
+// fair looks for noise unless told otherwise; the other methods take the samples as they are.
+static network::SmoothingOptions smoothing_of(const wsk_options& options, const Scale& scale) {
+  const bool automatic =
+      options.smoothing == WSK_SMOOTHING_AUTO ||
+      (options.smoothing == WSK_SMOOTHING_DEFAULT && options.method == WSK_METHOD_FAIR);
+  if (automatic) return {network::Noise::estimate, 0.0};
+  if (options.smoothing == WSK_SMOOTHING_GIVEN && options.noise > 0.0) {
+    return {network::Noise::given, scale(options.noise)};
+  }
+  return {network::Noise::none, 0.0};
+}
+
 static Status build(Context& context, const wsk_curve* curves, size_t count,
                     const wsk_options& options, wsk_report* report, wsk_surface** out) {
   CurveStorage storage(context);
@@ -388,14 +430,18 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   TRY(find_scale(storage.position.span(), &exponent));
   const Scale scale(-exponent);
   for (Vec3& p : storage.position) p = scale(p);
+  for (double& cutoff : storage.soft) {  // zero: as the options say; negative: not soft at all
+    cutoff = cutoff < 0.0 ? 0.0 : scale(cutoff > 0.0 ? cutoff : options.soft);
+  }
   const CurveSet set = {storage.start.span(),  storage.position.span(), storage.normal.span(),
-                        storage.number.span(), storage.closed.span(),   storage.boundary.span()};
-  const double spacing = scale(options.spacing);
-  if (spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default
+                        storage.number.span(), storage.closed.span(),   storage.boundary.span(),
+                        storage.soft.span()};
+  const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
+                             smoothing_of(options, scale)};
+  if (settings.spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default
     return fail(Code::too_large, "the spacing is too small for the network");
   }
-  const Status status =
-      surface_curves(context, set, static_cast<smooth::Method>(options.method), spacing, &surface);
+  const Status status = surface_curves(context, set, settings, &surface);
   report_counts(surface.counts, Scale(exponent), report);
   TRY(status);
   return make_handle(context, surface, exponent, out);
@@ -416,9 +462,10 @@ static Status smooth_mesh(Context& context, const wsk_mesh& mesh, const wsk_opti
   const TriangleSet set = {storage.position.span(),
                            storage.normal.span(),
                            storage.held.span(),
-                           {mesh.triangles, 3 * mesh.triangle_count}};
-  const Status status =
-      surface_triangles(context, set, static_cast<smooth::Method>(options.method), &surface);
+                           {mesh.triangles, 3 * mesh.triangle_count},
+                           scale(options.soft)};
+  const Settings settings = {static_cast<smooth::Method>(options.method), 0.0, {}};
+  const Status status = surface_triangles(context, set, settings, &surface);
   report_counts(surface.counts, Scale(exponent), report);
   TRY(status);
   return make_handle(context, surface, exponent, out);
@@ -501,7 +548,7 @@ void wsk_options_init(wsk_options* options, size_t size) {
   std::memset(&defaults, 0, sizeof defaults);
   std::memset(options, 0, size);
   defaults.size = size;
-  defaults.method = WSK_METHOD_STANKO;
+  defaults.method = WSK_METHOD_FAIR;
   std::memcpy(options, &defaults, wireskin::api::least(size, sizeof defaults));
 }
 
@@ -557,4 +604,3 @@ void wsk_surface_free(wsk_surface* surface) {
 }
 
 }  // extern "C"
-namespace wireskin { uint32_t g_debug[2]; }

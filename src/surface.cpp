@@ -1,8 +1,9 @@
 #include "surface.h"
 
+#include "curves/distance.h"
 #include "mesh/curvature.h"
-#include "smooth/fair.h"
 #include "network/patch_mesh.h"
+#include "smooth/fair.h"
 
 namespace wireskin {
 
@@ -26,11 +27,48 @@ static Status at_curve(Status status, uint32_t curve) {
   return status;
 }
 
-// Checks every curve, unites the samples of each node and fits the splines.
+// Gives the samples of every node its position and normal.
+static void unite_nodes(const CurveSet& set, Span<const uint32_t> node,
+                        Span<const network::Node> nodes) {
+  for (size_t i = 0; i < node.size(); ++i) {
+    if (node[i] == k_none) continue;
+    set.position[i] = nodes[node[i]].position;
+    set.normal[i] = nodes[node[i]].normal;
+  }
+}
+
+// Thins all curves, takes the noise out of what is kept, and lets nodes move with their curves.
+static Status smooth_curves(Context& context, const CurveSet& set, Span<const uint32_t> node,
+                            const network::SmoothingOptions& options, Span<network::Node> nodes,
+                            Array<uint32_t>* kept_start, Array<uint32_t>* kept, Counts* counts) {
+  Array<uint32_t> thinned(context);
+  TRY(kept_start->push(0));
+  for (uint32_t c = 0; c < counts->curves; ++c) {
+    // Neighbours that differed by less than the tolerance may have become one point.
+    TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
+    TRY(at_curve(curves::thin(samples_of(set, node, c), &thinned), c));
+    for (uint32_t i : thinned) TRY(kept->push(i));
+    TRY(kept_start->push(static_cast<uint32_t>(kept->size())));
+  }
+  if (options.noise == network::Noise::none) return {};
+  TRY(network::smooth_samples(
+      context,
+      {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, set.normal},
+      options, &counts->noise));
+  for (size_t i = 0; i < node.size(); ++i) {
+    if (node[i] == k_none) continue;
+    nodes[node[i]].position = set.position[i];
+    nodes[node[i]].normal = set.normal[i];
+  }
+  return {};
+}
+
+// Checks every curve, unites the samples of each node, smooths and fits the splines.
 static Status fit_curves(Context& context, const CurveSet& set, double size,
-                         Array<network::Node>* nodes, curves::Curves* fitted, Counts* counts) {
+                         const network::SmoothingOptions& smoothing, Array<network::Node>* nodes,
+                         curves::Curves* fitted, Counts* counts) {
   constexpr double k_node_tolerance = 1e-9;
-  Array<uint32_t> node(context);
+  Array<uint32_t> node(context), kept_start(context), kept(context);
   counts->curves = static_cast<uint32_t>(set.closed.size());
   for (uint32_t c = 0; c < counts->curves; ++c) {
     TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
@@ -38,15 +76,13 @@ static Status fit_curves(Context& context, const CurveSet& set, double size,
   const network::SampleNumbers samples = {set.start, set.number, set.position, set.normal};
   TRY(network::find_nodes(samples, k_node_tolerance * size, nodes, &node));
   counts->nodes = static_cast<uint32_t>(nodes->size());
-  for (size_t i = 0; i < node.size(); ++i) {
-    if (node[i] == k_none) continue;
-    set.position[i] = (*nodes)[node[i]].position;
-    set.normal[i] = (*nodes)[node[i]].normal;
-  }
+  unite_nodes(set, node.span(), nodes->span());
+  TRY(smooth_curves(context, set, node.span(), smoothing, nodes->span(), &kept_start, &kept,
+                    counts));
   for (uint32_t c = 0; c < counts->curves; ++c) {
-    // Neighbours that differed by less than the tolerance may have become one point.
-    TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
-    TRY(at_curve(curves::add_curve(samples_of(set, node.span(), c), fitted), c));
+    const Span<const uint32_t> own =
+        kept.span().part(kept_start[c], kept_start[c + 1] - kept_start[c]);
+    TRY(at_curve(curves::fit_curve(samples_of(set, node.span(), c), own, fitted), c));
     TRY(context.progress(static_cast<double>(c + 1) / counts->curves));
   }
   return {};
@@ -79,8 +115,9 @@ static Status count_topology(uint32_t vertices, Span<const uint32_t> triangles,
   return {};
 }
 
-// Normals, curvature and the least angle of the finished mesh.
-static Status measure(Context& context, Span<const uint8_t> on_border, Surface* surface) {
+// Normals, curvatures and the figures of the report, of the finished mesh.
+static Status measure(Context& context, Span<const uint8_t> on_border, Span<const uint8_t> on_curve,
+                      Surface* surface) {
   TRY(context.enter(Stage::result));
   for (const Vec3& p : surface->position) {
     if (p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0) continue;
@@ -91,8 +128,15 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Surface* 
   TRY(context.progress(0.3));
   TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
                            surface->triangle.span(), on_border, &surface->mean_curvature));
-  surface->counts.least_angle =
-      mesh::least_angle(surface->position.span(), surface->triangle.span());
+  TRY(mesh::gaussian_curvature(surface->position.span(), surface->triangle.span(), on_border,
+                               &surface->gaussian_curvature));
+  TRY(context.progress(0.6));
+  Counts* counts = &surface->counts;
+  counts->least_angle = mesh::least_angle(surface->position.span(), surface->triangle.span());
+  counts->normal_deviation =
+      mesh::deviation(surface->normal.span(), surface->constraint_normal.span());
+  TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
+                            surface->patch.span(), on_curve, &counts->dihedral));
   return context.progress(0.8);
 }
 
@@ -106,37 +150,128 @@ static Status in_terms_of_nodes(Status status, Span<const network::Node> nodes) 
   return status;
 }
 
-static Status smooth_patches(Context& context, const network::PatchMesh& patches,
-                             Span<const network::Node> nodes, smooth::Method method,
-                             Surface* surface) {
-  const uint32_t n = patches.vertices;
-  mesh::Topology topology(context);
-  Array<uint8_t> held(context);
-  Array<Vec3> normal(context);
-  TRY(in_terms_of_nodes(count_topology(n, patches.triangle.span(), &topology, &surface->counts),
-                        nodes));
-  TRY(held.resize(n));
+// Half the length of the curve edges at each vertex: how much of its curve a vertex stands for.
+static Status curve_shares(const Surface& surface, Array<double>* share) {
+  TRY(share->assign(surface.position.size(), 0.0));
+  for (size_t e = 0; e < surface.curve_edge.size(); e += 2) {
+    const uint32_t a = surface.curve_edge[e], b = surface.curve_edge[e + 1];
+    const double half = 0.5 * length(surface.position[b] - surface.position[a]);
+    (*share)[a] += half;
+    (*share)[b] += half;
+  }
+  return {};
+}
+
+namespace {
+
+// What smoothing needs beside the surface itself.
+struct Constraints {
+  Array<uint8_t> on_curve, held;
+  Array<double> cutoff, share;  // empty: nothing is soft
+
+  explicit Constraints(Context& context)
+      : on_curve(context), held(context), cutoff(context), share(context) {}
+};
+
+struct Start {
+  Span<const mesh::TriangleShape> shape;
+  smooth::Metric metric;
+  Span<const uint8_t> on_border;
+};
+
+}  // namespace
+
+// Smooths the surface by the chosen method and measures the result.
+static Status smooth_surface(Context& context, const Start& start, const Constraints& constraints,
+                             smooth::Method method, Surface* surface) {
+  Array<Vec3> normal(context), anchor(context);
+  Counts* counts = &surface->counts;
   TRY(normal.copy(surface->constraint_normal.span()));
-  for (uint32_t v = 0; v < n; ++v) held[v] = v < patches.curve_vertices;
-  const smooth::Domain domain = {patches.triangle.span(), patches.shape.span(), held.span(),
-                                 topology.on_border.span(), smooth::Metric::planes};
+  if (!constraints.cutoff.empty()) TRY(anchor.copy(surface->position.span()));
+  const smooth::Soft soft = {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
+                             surface->constraint_normal.span(), counts->spacing};
   if (method == smooth::Method::iterated || method == smooth::Method::fair) {
     smooth::FairReport report;
     smooth::FairOptions options;
     if (method == smooth::Method::iterated) options.displacement_steps = 0;
-    const smooth::FairMesh mesh = {surface->position.span(),  normal.span(),
-                                   surface->triangle.span(),  surface->patch.span(),
-                                   held.span(), topology.on_border.span(), patches.shape.span()};
-    TRY(smooth::fair(context, mesh, surface->counts.patches, options, &report));
-    surface->counts.factorisations=report.factorisations; surface->counts.iterations=report.iterations;
-    surface->counts.residual = report.residual;
-    surface->counts.guarded = report.guarded_patches;
-    surface->counts.greatest_step = report.greatest_step;
-    return measure(context, topology.on_border.span(), surface);
+    const bool planes = start.metric == smooth::Metric::planes;
+    const smooth::FairMesh mesh = {surface->position.span(),
+                                   normal.span(),
+                                   surface->triangle.span(),
+                                   surface->patch.span(),
+                                   constraints.on_curve.span(),
+                                   constraints.held.span(),
+                                   start.on_border,
+                                   soft,
+                                   planes ? start.shape : Span<const mesh::TriangleShape>{}};
+    TRY(smooth::fair(context, mesh, counts->patches, options, &report));
+    counts->residual = report.residual;
+    counts->guarded_patches = report.guarded_patches;
+    counts->iterations = report.iterations;
+  } else {
+    const smooth::Domain domain = {surface->triangle.span(),
+                                   start.shape,
+                                   constraints.on_curve.span(),
+                                   constraints.held.span(),
+                                   start.on_border,
+                                   start.metric,
+                                   soft};
+    TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},
+                       &counts->residual));
   }
-  TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},
-                     &surface->counts.residual));
-  return measure(context, topology.on_border.span(), surface);
+  return measure(context, start.on_border, constraints.on_curve.span(), surface);
+}
+
+// Curve vertices hold, or pull where their curve is soft; where curves meet, one that holds wins,
+// else the shortest cutoff.
+static Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surface& surface,
+                               Constraints* constraints) {
+  const size_t n = surface.position.size();
+  TRY(constraints->on_curve.resize(n));
+  TRY(constraints->held.resize(n));
+  bool any = false;
+  for (double cutoff : set.soft) any = any || cutoff > 0.0;
+  for (size_t v = 0; v < n; ++v) {
+    constraints->on_curve[v] = constraints->held[v] = v < curve_vertices;
+  }
+  if (!any) return {};
+  TRY(curve_shares(surface, &constraints->share));
+  TRY(constraints->cutoff.assign(n, -1.0));
+  for (size_t e = 0; e < surface.curve_edge.size(); ++e) {
+    double& cutoff = constraints->cutoff[surface.curve_edge[e]];
+    const double own = set.soft[surface.curve_edge_curve[e / 2]];
+    if (cutoff < 0.0 || own < cutoff) cutoff = own;
+  }
+  for (size_t v = 0; v < n; ++v) {
+    if (constraints->cutoff[v] < 0.0) constraints->cutoff[v] = 0.0;
+    if (constraints->cutoff[v] > 0.0) constraints->held[v] = 0;
+  }
+  return {};
+}
+
+// How far the caller's samples lie from the curves of the result.
+static Status measure_constraints(const CurveSet& set, Span<const Vec3> given, Surface* surface) {
+  Context& context = surface->position.context();
+  Array<Vec3> line(context);
+  double sum = 0.0;
+  size_t edge = 0;
+  for (uint32_t c = 0; c < set.closed.size(); ++c) {
+    line.clear();
+    for (; edge < surface->curve_edge_curve.size() && surface->curve_edge_curve[edge] == c;
+         ++edge) {
+      if (line.empty()) TRY(line.push(surface->position[surface->curve_edge[2 * edge]]));
+      TRY(line.push(surface->position[surface->curve_edge[2 * edge + 1]]));
+    }
+    const size_t first = set.start[c], count = set.start[c + 1] - first;
+    const curves::LineDistance distance =
+        curves::distance_to_line(given.part(first, count), line.span(), set.closed[c] != 0);
+    sum += distance.sum_of_squares;
+    if (distance.greatest > surface->counts.greatest_distance) {
+      surface->counts.greatest_distance = distance.greatest;
+    }
+  }
+  surface->counts.mean_square_distance = sum / static_cast<double>(given.size());
+  return {};
 }
 
 // Makes room for the free vertices behind those of the curves.
@@ -155,7 +290,7 @@ static Status take_vertices(const network::CurveVertices& vertices,
   return surface->patch.copy(patches.patch.span());
 }
 
-Status surface_curves(Context& context, const CurveSet& set, smooth::Method method, double spacing,
+Status surface_curves(Context& context, const CurveSet& set, const Settings& settings,
                       Surface* surface) {
   Counts* counts = &surface->counts;
   curves::Curves fitted(context);
@@ -163,11 +298,15 @@ Status surface_curves(Context& context, const CurveSet& set, smooth::Method meth
   network::Network network(context);
   network::CurveVertices vertices(context);
   network::PatchMesh patches(context);
+  mesh::Topology topology(context);
+  Constraints constraints(context);
+  Array<Vec3> given(context);
 
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
-  counts->spacing = spacing > 0.0 ? spacing : size / 100.0;
-  TRY(fit_curves(context, set, size, &nodes, &fitted, counts));
+  counts->spacing = settings.spacing > 0.0 ? settings.spacing : size / 100.0;
+  TRY(given.copy(set.position));
+  TRY(fit_curves(context, set, size, settings.smoothing, &nodes, &fitted, counts));
 
   TRY(context.enter(Stage::network));
   TRY(network::find_patches(fitted, set.boundary, nodes.span(), &network));
@@ -180,20 +319,27 @@ Status surface_curves(Context& context, const CurveSet& set, smooth::Method meth
   TRY(network::mesh_patches(network, vertices, &patches));
   counts->free_vertices = patches.vertices - patches.curve_vertices;
   TRY(take_vertices(vertices, patches, surface));
-  return smooth_patches(context, patches, nodes.span(), method, surface);
+  TRY(in_terms_of_nodes(
+      count_topology(patches.vertices, surface->triangle.span(), &topology, counts), nodes.span()));
+
+  TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
+  TRY(smooth_surface(context,
+                     {patches.shape.span(), smooth::Metric::planes, topology.on_border.span()},
+                     constraints, settings.method, surface));
+  return measure_constraints(set, given.span(), surface);
 }
 
 // Every component and every border must be held, or the surface would be free to float away.
 static Status check_held(const TriangleSet& set, const mesh::Topology& topology) {
   Array<uint8_t> anchored(topology.component.context());
   TRY(anchored.assign(topology.components, 0));
-  for (uint32_t v = 0; v < set.held.size(); ++v) {
-    if (set.held[v]) anchored[topology.component[v]] = 1;
+  for (uint32_t v = 0; v < set.constrained.size(); ++v) {
+    if (set.constrained[v]) anchored[topology.component[v]] = 1;
   }
-  for (uint32_t v = 0; v < set.held.size(); ++v) {
+  for (uint32_t v = 0; v < set.constrained.size(); ++v) {
     Place place;
     place.vertex = v;
-    if (topology.on_border[v] && !set.held[v]) {
+    if (topology.on_border[v] && !set.constrained[v]) {
       return fail(Code::unconstrained, "a vertex of an open border is not constrained", place);
     }
     if (!anchored[topology.component[v]]) {
@@ -219,19 +365,55 @@ static Status take_triangles(const TriangleSet& set, Surface* surface) {
   TRY(surface->constraint_normal.assign(n, Vec3{}));
   TRY(surface->vertex_curve.assign(n, k_none));
   for (size_t v = 0; v < n; ++v) {
-    if (!set.held[v]) continue;
+    if (!set.constrained[v]) continue;
     surface->vertex_curve[v] = 0;
     if (!set.normal.empty()) surface->constraint_normal[v] = set.normal[v];
   }
   return {};
 }
 
-Status surface_triangles(Context& context, const TriangleSet& set, smooth::Method method,
+// As constrain_curves; where constrained vertices form no edges, a vertex stands for the mean
+// length of its edges.
+static Status constrain_vertices(const TriangleSet& set, Constraints* constraints) {
+  const size_t n = set.position.size();
+  const bool soft = set.soft > 0.0;
+  TRY(constraints->on_curve.copy(set.constrained));
+  TRY(constraints->held.assign(n, 0));
+  for (size_t v = 0; v < n; ++v) constraints->held[v] = set.constrained[v] != 0 && !soft;
+  if (!soft) return {};
+  Context& context = constraints->share.context();
+  Array<double> all(context);
+  Array<uint32_t> count(context);
+  TRY(constraints->cutoff.assign(n, 0.0));
+  TRY(constraints->share.assign(n, 0.0));
+  TRY(all.assign(n, 0.0));
+  TRY(count.assign(n, 0));
+  for (uint32_t h = 0; h < set.triangle.size(); ++h) {
+    // Inner edges are met twice, those of a border once; a quarter and a half of a length is near
+    // enough.
+    const uint32_t a = set.triangle[h], b = set.triangle[mesh::next_half_edge(h)];
+    const double edge = length(set.position[b] - set.position[a]);
+    all[a] += edge;
+    ++count[a];
+    if (!set.constrained[a] || !set.constrained[b]) continue;
+    constraints->share[a] += 0.5 * edge;
+    constraints->share[b] += 0.5 * edge;
+  }
+  for (size_t v = 0; v < n; ++v) {
+    if (!set.constrained[v]) continue;
+    constraints->cutoff[v] = set.soft;
+    if (constraints->share[v] == 0.0)
+      constraints->share[v] = all[v] / static_cast<double>(count[v]);
+  }
+  return {};
+}
+
+Status surface_triangles(Context& context, const TriangleSet& set, const Settings& settings,
                          Surface* surface) {
   Counts* counts = &surface->counts;
   mesh::Topology topology(context);
   Array<mesh::TriangleShape> shapes(context);
-  Array<Vec3> normal(context);
+  Constraints constraints(context);
   const uint32_t n = static_cast<uint32_t>(set.position.size());
 
   TRY(context.enter(Stage::patches));
@@ -239,28 +421,13 @@ Status surface_triangles(Context& context, const TriangleSet& set, smooth::Metho
   TRY(mesh::check_areas(set.position, set.triangle));
   TRY(check_held(set, topology));
   counts->patches = 1;
-  for (uint8_t held : set.held) counts->free_vertices += held == 0;
+  for (uint8_t constrained : set.constrained) counts->free_vertices += constrained == 0;
   counts->spacing = mean_edge_length(set.position, set.triangle);
   TRY(take_triangles(set, surface));
-  TRY(normal.copy(surface->constraint_normal.span()));
   TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
-
-  const smooth::Domain domain = {set.triangle, shapes.span(), set.held, topology.on_border.span(),
-                                 smooth::Metric::space};
-  if (method == smooth::Method::iterated || method == smooth::Method::fair) {
-    smooth::FairReport report;
-    smooth::FairOptions options;
-    if (method == smooth::Method::iterated) options.displacement_steps = 0;
-    const smooth::FairMesh mesh = {surface->position.span(),  normal.span(),
-                                   surface->triangle.span(),  surface->patch.span(),
-                                   set.held, topology.on_border.span(), {}};
-    TRY(smooth::fair(context, mesh, 1, options, &report));
-    counts->residual = report.residual; counts->factorisations=report.factorisations; counts->iterations=report.iterations;
-    return measure(context, topology.on_border.span(), surface);
-  }
-  TRY(smooth::smooth(context, domain, method, {surface->position.span(), normal.span()},
-                     &counts->residual));
-  return measure(context, topology.on_border.span(), surface);
+  TRY(constrain_vertices(set, &constraints));
+  return smooth_surface(context, {shapes.span(), smooth::Metric::space, topology.on_border.span()},
+                        constraints, settings.method, surface);
 }
 
 }  // namespace wireskin

@@ -6,8 +6,8 @@
 // reported with them.
 #pragma once
 
-#include "base/array.h"
-#include "num/vec.h"
+#include "mesh/measure.h"
+#include "network/smoothing.h"
 #include "smooth/smooth.h"
 
 namespace wireskin {
@@ -21,13 +21,22 @@ struct CurveSet {
   Span<const uint32_t> number;   // the caller's node numbers, k_none for ordinary samples
   Span<const uint8_t> closed;    // of each curve
   Span<const uint8_t> boundary;  // of each curve
+  Span<const double> soft;       // of each curve: its cutoff length, zero if it holds
 };
 
 struct TriangleSet {
   Span<const Vec3> position;
   Span<const Vec3> normal;  // unit where held; empty if there are none
-  Span<const uint8_t> held;
+  Span<const uint8_t> constrained;
   Span<const uint32_t> triangle;
+  double soft = 0.0;  // cutoff length of the constraints, zero if they hold
+};
+
+// What the caller chose. Lengths are scaled like the positions.
+struct Settings {
+  smooth::Method method = smooth::Method::fair;
+  double spacing = 0.0;  // zero: a hundredth of the diagonal of the bounding box
+  network::SmoothingOptions smoothing;
 };
 
 struct Counts {
@@ -38,9 +47,12 @@ struct Counts {
   double spacing = 0.0;
   double least_angle = 0.0;  // degrees
   double residual = 0.0;
-  uint32_t guarded = 0;
-  double greatest_step = 0.0;
-  uint32_t factorisations=0, iterations=0;
+  uint32_t guarded_patches = 0;
+  uint32_t iterations = 0;  // of conjugate gradients
+  network::SmoothingReport noise;
+  double greatest_distance = 0.0, mean_square_distance = 0.0;  // of the samples from their curves
+  mesh::AngleStatistics normal_deviation;                      // along the curves
+  mesh::AngleStatistics dihedral;                              // across the curves
 };
 
 struct Surface {
@@ -48,6 +60,7 @@ struct Surface {
   Array<Vec3> position;
   Array<Vec3> normal;  // of the mesh
   Array<double> mean_curvature;
+  Array<double> gaussian_curvature;
   Array<uint32_t> vertex_curve;   // k_none where free
   Array<Vec3> constraint_normal;  // zero where free
   Array<uint32_t> triangle;
@@ -59,6 +72,7 @@ struct Surface {
       : position(context),
         normal(context),
         mean_curvature(context),
+        gaussian_curvature(context),
         vertex_curve(context),
         constraint_normal(context),
         triangle(context),
@@ -67,11 +81,10 @@ struct Surface {
         curve_edge_curve(context) {}
 };
 
-// `spacing` 0: a hundredth of the diagonal of the bounding box.
-Status surface_curves(Context& context, const CurveSet& curves, smooth::Method method,
-                      double spacing, Surface* surface);
+Status surface_curves(Context& context, const CurveSet& curves, const Settings& settings,
+                      Surface* surface);
 
-Status surface_triangles(Context& context, const TriangleSet& mesh, smooth::Method method,
+Status surface_triangles(Context& context, const TriangleSet& mesh, const Settings& settings,
                          Surface* surface);
 
 }  // namespace wireskin

@@ -152,8 +152,8 @@ const char* wsk_stage_name(wsk_stage stage);
 typedef int32_t wsk_method;
 
 enum {
-  /* Stanko et al. 2016: normals and positions propagated biharmonically, then the positions whose
-     mean curvature vectors fit best those of the propagated normals. The default. */
+  /* Stanko et al. 2016: normals and positions propagated biharmonically in the planes of the patches,
+     then the positions whose mean curvature vectors fit best those of the propagated normals. */
   WSK_METHOD_STANKO = 0,
   /* Least square Laplacian of the positions; normals are not used for the shape. M. Botsch,
      L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004, order 2. */
@@ -163,9 +163,31 @@ enum {
   /* Biharmonic with the curvature vector prescribed on the curves: method (4) of Stanko et al., for
      comparison. Erratic by nature. */
   WSK_METHOD_CLAMPED = 3,
+  /* Stanko's method twice, on the surface itself instead of the planes: a harmonic start, edge flips
+     and relaxation before each step. Cheap, and much closer than STANKO on most shapes. */
   WSK_METHOD_ITERATED = 4,
+  /* The default: ITERATED, then three steps of minimum variation along the normals (after H. Moreton,
+     C. Sequin, "Functional Optimization for Fair Surface Design", 1992), in which the normals on the
+     curves bind. A patch whose displacement runs away keeps what ITERATED gave. */
   WSK_METHOD_FAIR = 5,
   WSK_METHOD_COUNT = 6
+};
+
+typedef int32_t wsk_smoothing;
+
+enum {
+  /* AUTO for WSK_METHOD_FAIR, NONE for all others. */
+  WSK_SMOOTHING_DEFAULT = 0,
+  /* The samples are exact: curves interpolate them and nodes keep their bits. */
+  WSK_SMOOTHING_NONE = 1,
+  /* One smoothing spline over the whole network, whose strength is found by generalised cross
+     validation, for positions and normals separately; nodes move with their curves. Samples without
+     noise stay as they are, bit for bit. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline
+     Functions", 1979. */
+  WSK_SMOOTHING_AUTO = 2,
+  /* The same with the noise of the positions stated in wsk_options.noise. */
+  WSK_SMOOTHING_GIVEN = 3,
+  WSK_SMOOTHING_COUNT = 4
 };
 
 /* `user` is the pointer given beside the callback. None of the callbacks may throw or jump out of
@@ -179,6 +201,14 @@ typedef struct wsk_options {
      two nodes is divided evenly, so distances differ a little from it. Ignored by
      wsk_smooth_mesh. */
   double spacing;
+  /* What is done about noise in the samples of wsk_build, before anything else. */
+  wsk_smoothing smoothing;
+  /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none. */
+  double noise;
+  /* Soft constraints: curves pull the surface instead of holding it. A length in your units: details
+     of a curve shorter than this are smoothed away, longer ones kept. 0 (the default): curves hold.
+     wsk_curve.soft overrides it for one curve. */
+  double soft;
 
   /* Memory: aligned for double and pointers, null on failure. `release` is told the size that was
      asked for. Give both or none (malloc and free). The surface keeps them until it is freed. */
@@ -237,6 +267,20 @@ typedef struct wsk_report {
   double spacing;       /* the spacing used, in your units; mean edge length for wsk_smooth_mesh */
   double min_angle_deg; /* the least angle of all triangles of the result */
   double residual;      /* relative residual of the last linear solve, greatest of its columns */
+  uint32_t factorisations; /* Cholesky factorisations, of whatever size */
+  uint32_t cg_iterations;  /* iterations of conjugate gradients with an earlier factor */
+  uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them */
+  double noise_position; /* standard deviation of each coordinate, as estimated; 0 if not */
+  double noise_normal;   /* the same of the unit normals' components */
+  /* Distance of all given samples from the curves of the result, in your units (wsk_build). */
+  double constraint_distance_max;
+  double constraint_distance_rms;
+  /* Angle between the mesh's normal and the one asked for, over the vertices on curves. */
+  double normal_deviation_mean_deg;
+  double normal_deviation_max_deg;
+  /* Angle between the two triangles at an edge of a curve: ridges would show here. */
+  double dihedral_mean_deg;
+  double dihedral_max_deg;
   size_t peak_bytes;    /* the most memory held at any time during the call */
   double stage_ms[WSK_STAGE_COUNT]; /* 0 without a clock */
   double total_ms;
@@ -268,6 +312,9 @@ typedef struct wsk_curve {
   int32_t closed;
   /* Non-zero: the surface ends at this curve, it lies on one side only. */
   int32_t boundary;
+  /* How firmly the surface keeps to this curve: 0 as wsk_options.soft says, negative: it holds,
+     positive: its own cutoff length. At a node the firmest of its curves decides. */
+  double soft;
 } wsk_curve;
 
 /* Surfaces a network of curves.
@@ -275,7 +322,7 @@ typedef struct wsk_curve {
  * Curves are interpolated by cubic splines in chord length (periodic when closed, tangents of the
  * end parabolas when open), positions and normals alike. Samples nearer than half the curve's mean
  * spacing to the last one kept are left out before that, nodes never; nodes are vertices of the
- * result, bit for bit. Curves may have corners only where two curves end at a node.
+ * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where two curves end at a node.
  *
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
  * tip of the node's normal. Each patch must be seen without folds from the mean of its normals and
@@ -322,9 +369,10 @@ typedef struct wsk_surface_view {
   uint32_t curve_edge_count;
 
   const double* positions;      /* 3 a vertex */
-  const double* normals;        /* 3 a vertex: unit normals of the mesh, weighted by angle */
+  const double* normals;        /* 3 a vertex: unit normals of the mesh */
   const double* mean_curvature; /* 1 a vertex: (k1 + k2) / 2, positive on a sphere, per length */
-  const uint32_t* vertex_curve; /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
+  const double* gaussian_curvature; /* 1 a vertex: k1 k2, per square length */
+  const uint32_t* vertex_curve;     /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
                                    for a free vertex */
   const double*
       constraint_normals;         /* 3 a vertex: the input's unit normal there, 0 0 0 where free */

@@ -101,6 +101,10 @@ class Context {
     running_ = false;
   }
 
+  // Numerical factorisations so far, for the report.
+  void count_factorisation() { ++factorisations_; }
+  uint32_t factorisations() const { return factorisations_; }
+
   Stage stage() const { return stage_; }
   double milliseconds(int stage) const { return milliseconds_[stage]; }
   size_t used_bytes() const { return used_; }
@@ -121,6 +125,7 @@ class Context {
   Callbacks callbacks_;
   size_t used_ = 0;
   size_t peak_ = 0;
+  uint32_t factorisations_ = 0;
   Stage stage_ = Stage::input;
   double milliseconds_[k_stage_count] = {};
   double since_ = 0.0;

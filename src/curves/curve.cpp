@@ -51,9 +51,9 @@ static uint32_t first_node(const Samples& samples) {
   return 0;
 }
 
-// The samples to interpolate, in order along the curve, from `start` round. A sample that must stay
-// pushes out a droppable one just before it.
-static Status thin(const Samples& samples, uint32_t start, Array<uint32_t>* kept) {
+// A sample that must stay pushes out a droppable one just before it.
+Status thin(const Samples& samples, Array<uint32_t>* kept) {
+  const uint32_t start = samples.closed ? first_node(samples) : 0;
   const uint32_t n = static_cast<uint32_t>(samples.position.size());
   const double least = 0.5 * mean_spacing(samples);
   TRY(kept->reserve(n + 1));
@@ -176,23 +176,20 @@ static Status fit(Span<const double> knots, Span<const Vec3> values, bool closed
                     moments, scratch);
 }
 
-Status add_curve(const Samples& samples, Curves* curves) {
-  Context& context = curves->start.context();
-  Array<uint32_t> kept(context);
-  SplineScratch scratch(context);
-  TRY(thin(samples, samples.closed ? first_node(samples) : 0, &kept));
-  if (samples.closed) TRY(kept.push(kept[0]));
-  const size_t first = curves->knot.size(), count = kept.size();
+Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curves) {
+  SplineScratch scratch(curves->start.context());
+  const size_t first = curves->knot.size(), count = kept.size() + (samples.closed ? 1 : 0);
   TRY(extend(count, curves));
   const Span<double> knots = curves->knot.span().part(first, count);
   const Span<Vec3> positions = curves->position.span().part(first, count);
   const Span<Vec3> normals = curves->normal.span().part(first, count);
   for (size_t k = 0; k < count; ++k) {
-    positions[k] = samples.position[kept[k]];
-    normals[k] = samples.normal[kept[k]];
+    const uint32_t sample = kept[k < kept.size() ? k : 0];
+    positions[k] = samples.position[sample];
+    normals[k] = samples.normal[sample];
     knots[k] = k == 0 ? 0.0 : knots[k - 1] + length(positions[k] - positions[k - 1]);
-    curves->sample[first + k] = kept[k];
-    curves->node[first + k] = samples.node[kept[k]];
+    curves->sample[first + k] = sample;
+    curves->node[first + k] = samples.node[sample];
   }
   TRY(fit(knots, positions, samples.closed, curves->position_moment.span().part(first, count),
           &scratch));
@@ -205,6 +202,12 @@ Status add_curve(const Samples& samples, Curves* curves) {
     curves->arc[first + k] = arc;
   }
   return {};
+}
+
+Status add_curve(const Samples& samples, Curves* curves) {
+  Array<uint32_t> kept(curves->start.context());
+  TRY(thin(samples, &kept));
+  return fit_curve(samples, kept.span(), curves);
 }
 
 CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s) {

@@ -54,7 +54,14 @@ struct Curves {
 // jump. The place of a failure names the sample; the caller knows the curve.
 Status check_samples(const Samples& samples);
 
-// Fits one more curve.
+// The samples to interpolate, in order along the curve; a closed curve begins at its first node.
+Status thin(const Samples& samples, Array<uint32_t>* kept);
+
+// Fits one more curve through the samples `kept`, in that order; the others are not read. Smoothing
+// comes between thinning and this.
+Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curves);
+
+// Thins and fits at once.
 Status add_curve(const Samples& samples, Curves* curves);
 
 struct CurvePoint {

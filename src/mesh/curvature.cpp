@@ -44,18 +44,26 @@ static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> k
   }
 }
 
+Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const uint8_t> on_border,
+                   Span<double> values) {
+  Array<uint8_t> known(context);
+  Array<Mean> mean(context);
+  TRY(known.resize(values.size()));
+  TRY(mean.resize(values.size()));
+  for (size_t v = 0; v < values.size(); ++v) known[v] = on_border[v] == 0;
+  fill_from_neighbours(triangles, known.span(), mean.span(), values);
+  fill_from_neighbours(triangles, known.span(), mean.span(), values);
+  return {};
+}
+
 Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
                       Span<const uint32_t> triangles, Span<const uint8_t> on_border,
                       Array<double>* curvature) {
   Context& context = curvature->context();
   const size_t n = positions.size();
   Array<double> area(context);
-  Array<uint8_t> known(context);
-  Array<Mean> mean(context);
   TRY(curvature->assign(n, 0.0));
   TRY(area.assign(n, 0.0));
-  TRY(known.resize(n));
-  TRY(mean.resize(n));
   for (uint32_t t = 0; t < triangles.size(); t += 3) {
     const uint32_t* v = &triangles[t];
     const Vec3 normal = unit(normals[v[0]] + normals[v[1]] + normals[v[2]]);
@@ -69,12 +77,10 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
     }
   }
   for (size_t v = 0; v < n; ++v) {
-    known[v] = !on_border[v] && area[v] > 0.0;
-    (*curvature)[v] = known[v] ? (*curvature)[v] / (4.0 * area[v]) : 0.0;
+    const bool known = !on_border[v] && area[v] > 0.0;
+    (*curvature)[v] = known ? (*curvature)[v] / (4.0 * area[v]) : 0.0;
   }
-  fill_from_neighbours(triangles, known.span(), mean.span(), curvature->span());
-  fill_from_neighbours(triangles, known.span(), mean.span(), curvature->span());
-  return {};
+  return fill_border(context, triangles, on_border, curvature->span());
 }
 
 }  // namespace wireskin::mesh

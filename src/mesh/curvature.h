@@ -24,4 +24,9 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
                       Span<const uint32_t> triangles, Span<const uint8_t> on_border,
                       Array<double>* curvature);
 
+// Gives border vertices the mean of their neighbours inside, of those on the border where there are
+// none.
+Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const uint8_t> on_border,
+                   Span<double> values);
+
 }  // namespace wireskin::mesh

@@ -99,8 +99,9 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
     scratch->polygon[i] = plane.project(vertices.position[scratch->border[i]]);
   }
   TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
-  TRY(planar::mesh_polygon(context, scratch->polygon.span(),
-                           mean_edge(vertices, scratch->border.span()), &scratch->planar));
+  double spacing = mean_edge(vertices, scratch->border.span());
+  round_to_grid(scratch->polygon.span(), &spacing);
+  TRY(planar::mesh_polygon(context, scratch->polygon.span(), spacing, &scratch->planar));
   return append_patch(*scratch, patch, builder);
 }
 

@@ -24,4 +24,9 @@ Status border_of_patch(const Network& network, const CurveVertices& vertices, ui
 // Fails with patch_without_plane (no place) where the normals cancel out.
 Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border, Plane* plane);
 
+// Rounds plane coordinates, and a spacing, to a grid of 2^-32 of the polygon's extent. Which
+// triangles a patch gets then does not hang on the last bits of its border, which depend on the
+// direction in which curves were given.
+void round_to_grid(Span<Vec2> polygon, double* spacing);
+
 }  // namespace wireskin::network

@@ -99,6 +99,7 @@ static Status place_vertices(const curves::Curves& curves, const Network& networ
 
 Status resample(const curves::Curves& curves, Span<const Node> nodes, const Network& network,
                 double spacing, CurveVertices* vertices) {
+  vertices->nodes = static_cast<uint32_t>(nodes.size());
   TRY(count_edges(curves, network, nodes.size(), spacing, vertices));
   for (size_t i = 0; i < nodes.size(); ++i) {
     vertices->position[i] = nodes[i].position;

@@ -17,6 +17,7 @@ struct CurveVertices {
   Array<uint32_t> curve;  // of each vertex; at a node the least
   Array<uint32_t> edges;  // of each segment
   Array<uint32_t> first;  // of each segment: its first inner vertex
+  uint32_t nodes = 0;     // the first vertices
   double length = 0.0;    // of all segments together
 
   explicit CurveVertices(Context& context)

@@ -9,7 +9,7 @@ namespace wireskin::smooth {
 
 namespace {
 
-// The mesh cut open along the curves: held vertices have a copy in every patch.
+// The mesh cut open along the curves: vertices on curves have a copy in every patch.
 struct SplitMesh {
   uint32_t vertices = 0;
   Array<uint32_t> triangle;
@@ -56,7 +56,7 @@ static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
       const uint32_t patch = input.patch[corner[k] / 3];
       uint32_t copy = k_none;
       for (uint32_t j = start[v]; j < k && copy == k_none; ++j) {
-        const bool same = !input.held[v] || input.patch[corner[j] / 3] == patch;
+        const bool same = !input.on_curve[v] || input.patch[corner[j] / 3] == patch;
         if (same) copy = split->triangle[corner[j]];
       }
       if (copy == k_none) {
@@ -112,15 +112,31 @@ Status MinimumVariation::number_unknowns(Span<const uint8_t> held) {
   return {};
 }
 
+// A column whose entries come from several patches, sorted by row.
+static void sort_column(size_t first, sparse::Csc* matrix) {
+  for (size_t i = first + 1; i < matrix->row.size(); ++i) {
+    const uint32_t row = matrix->row[i];
+    const double value = matrix->value[i];
+    size_t hole = i;
+    for (; hole > first && matrix->row[hole - 1] > row; --hole) {
+      matrix->row[hole] = matrix->row[hole - 1];
+      matrix->value[hole] = matrix->value[hole - 1];
+    }
+    matrix->row[hole] = row;
+    matrix->value[hole] = value;
+  }
+}
+
 // The matrix of the least squares problem: first the rows of the split mesh, then one row a vertex
-// for the Laplacian of h. Columns are the unknowns, u and h of a vertex next to each other.
+// for the Laplacian of h, then one a vertex for the springs. Columns are the unknowns, u and h of a
+// vertex next to each other.
 Status MinimumVariation::make_rows(const sparse::Csc& split_laplacian,
                                    Span<const double> split_area, Span<const uint32_t> origin,
                                    const sparse::Csc& laplacian, sparse::Csc* rows) const {
   const uint32_t n = laplacian.cols, split = split_laplacian.cols;
-  rows->rows = split + n;
+  rows->rows = split + 2 * n;
   rows->cols = unknowns_;
-  const size_t most = split_laplacian.row.size() + laplacian.row.size() + split;
+  const size_t most = split_laplacian.row.size() + laplacian.row.size() + size_t{split} + size_t{n};
   if (most >= k_none) return fail(Code::too_large, "the mesh is too large for 32-bit indices");
   TRY(rows->start.resize(size_t{unknowns_} + 1));
   TRY(rows->row.reserve(most));
@@ -129,19 +145,27 @@ Status MinimumVariation::make_rows(const sparse::Csc& split_laplacian,
     rows->row.push_reserved(row);
     rows->value.push_reserved(value);
   };
-  uint32_t column = 0, copy = 0;  // split vertices are numbered along with their origins
+  uint32_t column = 0, first_copy = 0;  // split vertices are numbered along with their origins
   for (uint32_t v = 0; v < n; ++v) {
+    uint32_t end_copy = first_copy;
+    while (end_copy < split && origin[end_copy] == v) ++end_copy;
     if (displacement_[v] != k_none) {
-      rows->start[column++] = static_cast<uint32_t>(rows->row.size());
-      for (uint32_t p = split_laplacian.start[copy]; p < split_laplacian.start[copy + 1]; ++p) {
-        add(split_laplacian.row[p], split_laplacian.value[p]);
+      const size_t first = rows->row.size();
+      rows->start[column++] = static_cast<uint32_t>(first);
+      for (uint32_t copy = first_copy; copy < end_copy; ++copy) {
+        for (uint32_t p = split_laplacian.start[copy]; p < split_laplacian.start[copy + 1]; ++p) {
+          add(split_laplacian.row[p], split_laplacian.value[p]);
+        }
       }
+      sort_column(first, rows);
+      add(split + n + v, 1.0);
     }
     rows->start[column++] = static_cast<uint32_t>(rows->row.size());
-    for (; copy < split && origin[copy] == v; ++copy) add(copy, 2.0 * split_area[copy]);
+    for (uint32_t copy = first_copy; copy < end_copy; ++copy) add(copy, 2.0 * split_area[copy]);
     for (uint32_t p = laplacian.start[v]; p < laplacian.start[v + 1]; ++p) {
       add(split + laplacian.row[p], laplacian.value[p]);
     }
+    first_copy = end_copy;
   }
   rows->start[column] = static_cast<uint32_t>(rows->row.size());
   return {};
@@ -149,7 +173,8 @@ Status MinimumVariation::make_rows(const sparse::Csc& split_laplacian,
 
 // Row weights and right-hand side, g in the header.
 static void make_targets(const DisplaceInput& input, const SplitMesh& split,
-                         Span<const double> area, Span<double> weight, Span<double> target) {
+                         Span<const double> area, Span<const Vec3> normal, Span<double> weight,
+                         Span<double> target) {
   const double length2 = input.smoothing_length * input.smoothing_length;
   for (uint32_t r = 0; r < split.vertices; ++r) {
     Vec3 sum = split.conormal[r];
@@ -159,9 +184,15 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
     weight[r] = 1.0 / split.area[r];
     target[r] = -dot(sum, split.normal[r]);
   }
-  for (uint32_t v = 0; v < area.size(); ++v) {
+  const uint32_t n = static_cast<uint32_t>(area.size());
+  for (uint32_t v = 0; v < n; ++v) {
     weight[split.vertices + v] = input.on_border[v] ? 0.0 : length2 * length2 / area[v];
     target[split.vertices + v] = 0.0;
+    const uint32_t r = split.vertices + n + v;
+    const bool pulled = input.soft.any() && input.soft.cutoff[v] > 0.0;
+    weight[r] =
+        pulled ? length2 * length2 * spring(input.soft.share[v], input.soft.cutoff[v], 4) : 0.0;
+    target[r] = pulled ? dot(input.soft.position[v] - input.position[v], normal[v]) : 0.0;
   }
 }
 
@@ -237,7 +268,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   SplitMesh split(context_);
   mesh::vertex_normals(input.position, input.triangle, normal);
   for (uint32_t v = 0; v < n; ++v) {
-    if (input.held[v]) normal[v] = input.held_normal[v];
+    if (input.on_curve[v]) normal[v] = input.curve_normal[v];
   }
   TRY(mesh::triangle_shapes(input.position, input.triangle, &shapes));
   TRY(make_split_mesh(input, normal, shapes.span(), &split));
@@ -248,7 +279,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   TRY(make_rows(split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
   TRY(weight.resize(rows.rows));
   TRY(target.resize(rows.rows));
-  make_targets(input, split, area.span(), weight.span(), target.span());
+  make_targets(input, split, area.span(), normal, weight.span(), target.span());
   TRY(rhs.resize(unknowns_));
   TRY(solution.resize(unknowns_));
   for (uint32_t j = 0; j < unknowns_; ++j) {

@@ -15,18 +15,21 @@
 #pragma once
 
 #include "mesh/operators.h"
+#include "smooth/soft.h"
 #include "sparse/cholesky.h"
 
 namespace wireskin::smooth {
 
 struct DisplaceInput {
   Span<const Vec3> position;
-  Span<const Vec3> held_normal;  // unit at held vertices
+  Span<const Vec3> curve_normal;  // unit, of the vertices on curves
   Span<const uint32_t> triangle;
   Span<const uint32_t> patch;  // of each triangle
-  Span<const uint8_t> held;    // the same in every step
+  Span<const uint8_t> on_curve;
+  Span<const uint8_t> held;  // on a curve and not soft; the same in every step
   Span<const uint8_t> on_border;
-  double smoothing_length;  // c l above
+  double smoothing_length = 0.0;  // c l above
+  Soft soft = {};                 // adds (c l)^4 share / cutoff^7 (u - <a - v, n>)^2
 };
 
 // Solves one step after the other. The systems of later steps differ little from the first, so its

@@ -21,7 +21,8 @@ struct Guard {
   Array<double> area;     // of each patch
   Array<double> step;     // of each patch, last time; -1 before the first
   Array<uint8_t> frozen;  // patch
-  Array<uint8_t> held;    // vertex: held, or free in a frozen patch
+  Array<uint8_t> still;   // vertex: not to be moved any more
+  Array<uint8_t> kept;    // vertex: not to be relaxed, on a curve or still
 
   explicit Guard(Context& context)
       : position(context),
@@ -29,7 +30,8 @@ struct Guard {
         area(context),
         step(context),
         frozen(context),
-        held(context) {}
+        still(context),
+        kept(context) {}
 };
 
 }  // namespace
@@ -42,19 +44,20 @@ static Status harmonic_start(Context& context, const FairMesh& mesh, double* res
   Array<double> weight(context);
   TRY(mesh::cotangent_laplacian(n, mesh.triangle, mesh.start_shape, &laplacian));
   TRY(weight.assign(n, 1.0));
-  TRY(system.prepare(laplacian, mesh.held, Order::one));
-  TRY(system.factor(weight.span()));
-  return system.solve({}, mesh.position, residual);
+  TRY(system.prepare(laplacian, mesh.on_curve, Order::one));  // soft curves move later
+  TRY(system.factor(weight.span(), {}));
+  return system.solve({}, {}, mesh.position, residual);
 }
 
 static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::TriangleShape>* shapes,
                          FairReport* report) {
   uint32_t flips = 0;
   TRY(context.enter(Stage::operators));
-  TRY(mesh::care(context, {mesh.position, mesh.triangle, mesh.patch, mesh.held}, &flips));
+  TRY(mesh::care(context, {mesh.position, mesh.triangle, mesh.patch, mesh.on_curve}, &flips));
   report->flips += flips;
   TRY(mesh::triangle_shapes(mesh.position, mesh.triangle, shapes));
-  const Domain domain = {mesh.triangle, shapes->span(), mesh.held, mesh.on_border, Metric::space};
+  const Domain domain = {mesh.triangle,  shapes->span(), mesh.on_curve, mesh.held,
+                         mesh.on_border, Metric::space,  mesh.soft};
   return smooth(context, domain, Method::stanko, {mesh.position, mesh.normal}, &report->residual);
 }
 
@@ -64,7 +67,8 @@ static Status prepare_guard(const FairMesh& mesh, uint32_t patches, Guard* guard
   TRY(guard->area.assign(patches, 0.0));
   TRY(guard->step.assign(patches, -1.0));
   TRY(guard->frozen.assign(patches, 0));
-  TRY(guard->held.copy(mesh.held));
+  TRY(guard->still.copy(mesh.held));
+  TRY(guard->kept.copy(mesh.on_curve));
   for (size_t t = 0; t < mesh.patch.size(); ++t) {
     const uint32_t* v = &mesh.triangle[3 * t];
     const Vec3& a = mesh.position[v[0]];
@@ -81,9 +85,8 @@ static void freeze(const FairMesh& mesh, uint32_t patch, Guard* guard) {
     if (mesh.patch[h / 3] != patch) continue;
     const uint32_t v = guard->triangle[h];
     mesh.triangle[h] = v;
-    if (mesh.held[v]) continue;
     mesh.position[v] = guard->position[v];
-    guard->held[v] = 1;
+    guard->still[v] = guard->kept[v] = 1;
   }
 }
 
@@ -118,23 +121,24 @@ static double mean_patch_size(const Guard& guard) {
 }
 
 static Status displacement_step(Context& context, const FairMesh& mesh, double smoothing_length,
-                                Span<const Vec3> held_normal, MinimumVariation* solver,
+                                Span<const Vec3> curve_normal, MinimumVariation* solver,
                                 Guard* guard, FairReport* report) {
   const size_t n = mesh.position.size();
   Array<Vec3> direction(context);
   Array<double> step(context);
   uint32_t flips = 0;
   TRY(context.enter(Stage::operators));
-  TRY(mesh::care(context, {mesh.position, mesh.triangle, mesh.patch, guard->held.span()}, &flips));
+  TRY(mesh::care(context, {mesh.position, mesh.triangle, mesh.patch, guard->kept.span()}, &flips));
   report->flips += flips;
   TRY(direction.resize(n));
   TRY(step.resize(n));
-  const DisplaceInput input = {mesh.position, held_normal,    mesh.triangle,   mesh.patch,
-                               mesh.held,     mesh.on_border, smoothing_length};
+  const DisplaceInput input = {mesh.position,  curve_normal,     mesh.triangle,
+                               mesh.patch,     mesh.on_curve,    mesh.held,
+                               mesh.on_border, smoothing_length, mesh.soft};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {
-    if (!guard->held[v]) mesh.position[v] += step[v] * direction[v];
+    if (!guard->still[v]) mesh.position[v] += step[v] * direction[v];
   }
   return {};
 }
@@ -142,21 +146,22 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
 Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const FairOptions& options,
             FairReport* report) {
   Array<mesh::TriangleShape> shapes(context);
-  Array<Vec3> held_normal(context);
+  Array<Vec3> curve_normal(context);
   Guard guard(context);
-  TRY(held_normal.copy(mesh.normal));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
   for (int k = 0; k < options.paper_steps; ++k) {
     TRY(paper_step(context, mesh, &shapes, report));
   }
+  // Soft curves take the normals that the last step smoothed; held ones have those given.
+  TRY(curve_normal.copy(mesh.normal));
   TRY(prepare_guard(mesh, patches, &guard));
   MinimumVariation solver(context);
   const double smoothing_length = options.smoothness * mean_patch_size(guard);
   for (int k = 0; k < options.displacement_steps; ++k) {
-    TRY(displacement_step(context, mesh, smoothing_length, held_normal.span(), &solver, &guard,
+    TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), &solver, &guard,
                           report));
   }
-  report->residual = solver.residual();
+  if (options.displacement_steps > 0) report->residual = solver.residual();
   report->factorisations = solver.factorisations();
   report->iterations = solver.iterations();
   return {};

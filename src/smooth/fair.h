@@ -18,11 +18,13 @@ namespace wireskin::smooth {
 
 struct FairMesh {
   Span<Vec3> position;
-  Span<Vec3> normal;  // in: of held vertices
+  Span<Vec3> normal;  // in: of the vertices on curves
   Span<uint32_t> triangle;
   Span<const uint32_t> patch;
-  Span<const uint8_t> held;
+  Span<const uint8_t> on_curve;
+  Span<const uint8_t> held;  // on a curve and not soft
   Span<const uint8_t> on_border;
+  Soft soft;
   Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
 };
 

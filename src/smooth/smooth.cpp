@@ -53,34 +53,62 @@ struct Guided {
 
 }  // namespace
 
-// Normals and positions spread from the curves: N* (unit) and V*.
+// The penalties of soft vertices, for positions or for normals.
+static Status penalties(const Domain& domain, int order, bool normals, Array<double>* penalty) {
+  const Soft& soft = domain.soft;
+  TRY(penalty->assign(soft.cutoff.size(), 0.0));
+  for (size_t v = 0; v < penalty->size(); ++v) {
+    if (soft.cutoff[v] == 0.0) continue;
+    const double cutoff = normals ? soft.normal_cutoff(v) : soft.cutoff[v];
+    (*penalty)[v] = spring(soft.share[v], cutoff, order);
+  }
+  return {};
+}
+
+// Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor
+// serves both; soft ones pull normals and positions by springs of their own.
 static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
                         double* residual) {
   const size_t n = field.position.size();
+  Array<double> penalty(context);
   TRY(guided->conormal.assign(n, Vec3{}));
   TRY(guided->target.resize(n));
+  TRY(penalties(domain, 2, true, &penalty));
+  TRY(guided->system.factor(guided->weight.span(), penalty.span()));
+  TRY(guided->system.solve({}, domain.soft.normal, field.normal, residual));
+  for (size_t v = 0; v < n; ++v) {
+    if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
+  }
   if (domain.metric == Metric::space) {
     TRY(add_conormals(context, domain, field, guided->conormal.span()));
   }
   for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
-  TRY(guided->system.solve({}, field.normal, residual));
-  for (Vec3& normal : field.normal) normal = unit(normal);
-  return guided->system.solve(guided->target.span(), field.position, residual);
+  if (domain.soft.any()) {
+    TRY(penalties(domain, 2, false, &penalty));
+    TRY(guided->system.factor(guided->weight.span(), penalty.span()));
+  }
+  return guided->system.solve(guided->target.span(), domain.soft.position, field.position,
+                              residual);
 }
 
 // The final fit: Laplacians of the propagated curvature as targets, everywhere (the paper's method)
 // or on the held vertices alone (the clamped one).
-static Status fit(const Domain& domain, Method method, const Field& field, Guided* guided,
-                  double* residual) {
+static Status fit(Context& context, const Domain& domain, Method method, const Field& field,
+                  Guided* guided, double* residual) {
   const bool clamped = method == Method::clamped;
   for (size_t v = 0; v < field.position.size(); ++v) {
-    const bool guides = !clamped || domain.held[v];
+    const bool guides = !clamped || domain.on_curve[v];
     const double scale = guides ? -2.0 * guided->area[v] * guided->curvature[v] : 0.0;
     guided->target[v] = scale * field.normal[v] - guided->conormal[v];
-    if (clamped && domain.held[v]) guided->weight[v] *= k_clamp_penalty;
+    if (clamped && domain.on_curve[v]) guided->weight[v] *= k_clamp_penalty;
   }
-  if (clamped) TRY(guided->system.factor(guided->weight.span()));
-  return guided->system.solve(guided->target.span(), field.position, residual);
+  if (clamped) {
+    Array<double> penalty(context);
+    TRY(penalties(domain, 2, false, &penalty));
+    TRY(guided->system.factor(guided->weight.span(), penalty.span()));
+  }
+  return guided->system.solve(guided->target.span(), domain.soft.position, field.position,
+                              residual);
 }
 
 Status smooth(Context& context, const Domain& domain, Method method, const Field& field,
@@ -98,13 +126,17 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
               guided.weight.span());
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
   TRY(guided.system.prepare(laplacian, domain.held, order));
-  TRY(guided.system.factor(guided.weight.span()));
-  if (!uses_normals) return guided.system.solve({}, field.position, residual);
+  if (!uses_normals) {
+    Array<double> penalty(context);
+    TRY(penalties(domain, static_cast<int>(order), false, &penalty));
+    TRY(guided.system.factor(guided.weight.span(), penalty.span()));
+    return guided.system.solve({}, domain.soft.position, field.position, residual);
+  }
   TRY(propagate(context, domain, field, &guided, residual));
   TRY(context.enter(Stage::operators));
   TRY(mesh::mean_curvature(field.position, field.normal, domain.triangle, domain.on_border,
                            &guided.curvature));
-  return fit(domain, method, field, &guided, residual);
+  return fit(context, domain, method, field, &guided, residual);
 }
 
 }  // namespace wireskin::smooth

@@ -16,6 +16,7 @@
 #pragma once
 
 #include "mesh/operators.h"
+#include "smooth/soft.h"
 
 namespace wireskin::smooth {
 
@@ -33,9 +34,11 @@ enum class Metric { planes, space };
 struct Domain {
   Span<const uint32_t> triangle;
   Span<const mesh::TriangleShape> shape;  // of each triangle
-  Span<const uint8_t> held;               // of each vertex
-  Span<const uint8_t> on_border;          // of each vertex; border vertices are held
+  Span<const uint8_t> on_curve;           // of each vertex; those of open borders are
+  Span<const uint8_t> held;               // of each vertex: on a curve and not soft
+  Span<const uint8_t> on_border;          // of each vertex
   Metric metric = Metric::planes;
+  Soft soft = {};
 };
 
 // Position and normal of every vertex: in, those of the held ones; out, all.

@@ -51,10 +51,18 @@ Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, 
   return work_.resize(size_t{3} * unknowns_);
 }
 
-Status System::factor(Span<const double> weight) {
+// Columns begin with their diagonal.
+void System::add_penalties() {
+  for (size_t v = 0; v < penalty_.size(); ++v) {
+    if (unknown_[v] != k_none) matrix_.value[matrix_.start[unknown_[v]]] += penalty_[v];
+  }
+}
+
+Status System::factor(Span<const double> weight, Span<const double> penalty) {
   Context& context = weight_.context();
   TRY(context.enter(Stage::operators));
   TRY(weight_.copy(weight));
+  TRY(penalty_.copy(penalty));
   if (unknowns_ == 0) return {};
   if (order_ == Order::one) {
     TRY(negative_part(*laplacian_, unknown_.span(), unknowns_, &matrix_));
@@ -76,6 +84,7 @@ Status System::factor(Span<const double> weight) {
     TRY(sparse::weighted_product(squared, minus.span(), *laplacian_, unknown_.span(), unknowns_,
                                  sparse::Part::lower, &matrix_));
   }
+  add_penalties();
   TRY(context.enter(Stage::factor));
   if (!analysed_) {
     Array<uint32_t> order(context);
@@ -137,11 +146,19 @@ double System::residual_of(Span<double> residual) const {
   return worst;
 }
 
-Status System::solve(Span<const Vec3> target, Span<Vec3> value, double* residual) {
+Status System::solve(Span<const Vec3> target, Span<const Vec3> anchor, Span<Vec3> value,
+                     double* residual) {
   TRY(weight_.context().enter(Stage::solve));
   *residual = 0.0;
   if (unknowns_ == 0) return {};
   TRY(right_hand_side(target, value));
+  for (size_t v = 0; v < penalty_.size(); ++v) {
+    if (unknown_[v] == k_none || penalty_[v] == 0.0) continue;
+    double* row = &rhs_[size_t{3} * unknown_[v]];
+    row[0] += penalty_[v] * anchor[v].x;
+    row[1] += penalty_[v] * anchor[v].y;
+    row[2] += penalty_[v] * anchor[v].z;
+  }
   TRY(solution_.copy(rhs_.span()));
   TRY(factor_.solve(solution_.span(), 3));
   *residual = residual_of(work_.span());

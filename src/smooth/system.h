@@ -26,22 +26,26 @@ class System {
         matrix_(context),
         factor_(context),
         weight_(context),
+        penalty_(context),
         rhs_(context),
         solution_(context),
         work_(context) {}
 
   // `laplacian` must outlive the system. Numbers the unknowns.
   Status prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order);
-  // Assembles and factors with these row weights; may be called again.
-  Status factor(Span<const double> weight);
-  // In: the held values, and the target of every row (empty: zero). Out: the free values.
-  // `residual`: the greatest relative residual of the three columns after one step of refinement
-  // where needed.
-  Status solve(Span<const Vec3> target, Span<Vec3> value, double* residual);
+  // Assembles and factors with these row weights, and a penalty for each vertex (empty: none); may
+  // be called again.
+  Status factor(Span<const double> weight, Span<const double> penalty);
+  // In: the held values, the target of every row (empty: zero), and where penalties draw to. Out:
+  // the free values. `residual`: the greatest relative residual of the three columns after one step
+  // of refinement where needed.
+  Status solve(Span<const Vec3> target, Span<const Vec3> anchor, Span<Vec3> value,
+               double* residual);
 
  private:
   Status right_hand_side(Span<const Vec3> target, Span<const Vec3> value);
   void store_right_hand_side(Span<const Vec3> values);
+  void add_penalties();
   double residual_of(Span<double> residual) const;
 
   const sparse::Csc* laplacian_ = nullptr;
@@ -52,6 +56,7 @@ class System {
   sparse::Csc matrix_;
   sparse::Cholesky factor_;
   Array<double> weight_;
+  Array<double> penalty_;                // of each vertex, or empty
   Array<double> rhs_, solution_, work_;  // three columns, row by row
 };
 

@@ -205,6 +205,7 @@ Status Cholesky::factor_panel(uint32_t s) {
 }
 
 Status Cholesky::factor(const Csc& lower) {
+  context_->count_factorisation();
   factored_ = false;
   if (!analysed_ || lower.cols != n_ || lower.value.size() != lower_.source.size()) {
     return fail(Code::bad_argument, "the matrix has not the pattern that was analysed");

@@ -1,6 +1,7 @@
 #include "sparse/ldl.h"
 
 #include <cfloat>
+#include <cmath>
 
 #include "sparse/elimination_tree.h"
 
@@ -24,6 +25,13 @@ Ldl::Ldl(Context& context)
       column_(context),
       sum_(context),
       permuted_(context) {}
+
+// Entries far from the diagonal may shrink step by step until they are denormal, which processors
+// handle slowly; this far below one they are nothing.
+static double without_dust(double entry) {
+  constexpr double k_dust = 0x1p-500;
+  return std::fabs(entry) < k_dust ? 0.0 : entry;
+}
 
 Status Ldl::count_work(size_t work) {
   constexpr size_t k_work_per_checkpoint = size_t{1} << 21;
@@ -58,7 +66,7 @@ Status Ldl::analyse(const Csc& lower, Span<const uint32_t> order) {
   TRY(pattern_.resize(n));
   TRY(filled_.resize(n));
   TRY(column_.assign(n, 0.0));
-  TRY(sum_.resize(n));
+  TRY(sum_.assign(n, 0.0));
   TRY(diagonal_.resize(n));
   TRY(inverse_diagonal_.resize(n));
   TRY(visited_.assign(n, k_none));
@@ -107,7 +115,7 @@ Status Ldl::factor(const Csc& lower) {
       const double y = column_[j];
       column_[j] = 0.0;
       for (uint32_t p = start_[j]; p < filled_[j]; ++p) column_[row_[p]] -= value_[p] * y;
-      const double entry = y / diagonal_[j];
+      const double entry = without_dust(y / diagonal_[j]);
       pivot -= entry * y;
       work += filled_[j] - start_[j] + 2;
       row_[filled_[j]] = k;
@@ -186,7 +194,7 @@ Status Ldl::inverse_diagonal(Span<double> diagonal) {
     }
     double own = 1.0 / diagonal_[j];
     for (uint32_t p = first; p < end; ++p) {
-      inverse_[p] = -sum_[row_[p]];
+      inverse_[p] = without_dust(-sum_[row_[p]]);
       own -= inverse_[p] * value_[p];
       column_[row_[p]] = 0.0;
     }

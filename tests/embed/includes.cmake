@@ -13,7 +13,6 @@ set(rank_of_network 4)
 set(rank_of_smooth 4)
 set(rank_of_flow 4)
 set(rank_of_surface 5)
-set(rank_of_scale 5)
 set(rank_of_api 6)
 set(allowed_system_headers
     cassert cfloat cmath cstddef cstdint cstdlib cstring initializer_list limits new type_traits utility

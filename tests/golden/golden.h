@@ -13,10 +13,10 @@ struct Golden {
 };
 
 inline constexpr Golden k_golden[] = {
-    {"octants", WSK_METHOD_STANKO, 0x90061480e7397662u},
-    {"saddle", WSK_METHOD_STANKO, 0x970020a608dc28f5u},
+    {"octants", WSK_METHOD_STANKO, 0x4d65daff209c35c2u},
+    {"saddle", WSK_METHOD_STANKO, 0x063f2889f06b9fefu},
     {"band", WSK_METHOD_STANKO, 0xca9b8ec3075f392cu},
-    {"octants", WSK_METHOD_BIHARMONIC, 0x436781bdc93ba967u},
-    {"octants", WSK_METHOD_TRIHARMONIC, 0x9a8f1579bd3503e0u},
-    {"octants", WSK_METHOD_CLAMPED, 0x7ae96e60f34d56c8u},
+    {"octants", WSK_METHOD_BIHARMONIC, 0x84cfcf068738117cu},
+    {"octants", WSK_METHOD_TRIHARMONIC, 0x3644d899adc2c920u},
+    {"octants", WSK_METHOD_CLAMPED, 0x24fb9a746cbdfd8fu},
 };

@@ -55,7 +55,7 @@ double distance_to_segment(const Point& p, const Point& a, const Point& b) {
 }
 
 double distance_to_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
-  const Point n = unit(cross(b - a, c - a));
+  const Point n = networks::unit(cross(b - a, c - a));
   const double height = dot(p - a, n);
   const Point q = p - height * n;
   if (dot(cross(b - a, q - a), n) >= 0 && dot(cross(c - b, q - b), n) >= 0 &&
@@ -194,8 +194,8 @@ TEST_CASE("lilium, measured curves and normals") {
   CHECK(result.report.nodes == 5);
   CHECK(result.report.segments == 8);
 
-  wireskin::Context context = test_support::context();
-  Fitted fitted(context);
+  unit::Heap heap;
+  Fitted fitted(heap.context);
   fitted.fit(network);
 
   // Nodes bit for bit; all other curve vertices on the spline.

@@ -1,4 +1,4 @@
-#include "scale.h"
+#include "num/scale.h"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,82 @@
+#include "mesh/measure.h"
+
+#include "mesh/curvature.h"
+#include "mesh/operators.h"
+#include "num/trig.h"
+
+namespace wireskin::mesh {
+
+static constexpr double k_degrees = 180.0 / k_pi;
+
+namespace {
+
+// A mean and a maximum under way.
+struct AngleSum {
+  double sum = 0.0;
+  double greatest = 0.0;
+  size_t count = 0;
+
+  void add(double angle) {
+    sum += angle;
+    ++count;
+    if (angle > greatest) greatest = angle;
+  }
+  AngleStatistics statistics() const {
+    if (count == 0) return {};
+    return {k_degrees * (sum / static_cast<double>(count)), k_degrees * greatest};
+  }
+};
+
+}  // namespace
+
+Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> triangles,
+                          Span<const uint8_t> on_border, Array<double>* curvature) {
+  Context& context = curvature->context();
+  const size_t n = positions.size();
+  Array<TriangleShape> shapes(context);
+  Array<double> area(context);
+  TRY(curvature->assign(n, 2.0 * k_pi));
+  TRY(area.resize(n));
+  TRY(triangle_shapes(positions, triangles, &shapes));
+  mixed_voronoi_areas(triangles, shapes.span(), area.span());
+  for (size_t h = 0; h < triangles.size(); ++h) {
+    // The cotangent of the angle is known: arctan2(1, cot) is the angle.
+    (*curvature)[triangles[h]] -= arc_tangent(1.0, shapes[h / 3].cotangent[h % 3]);
+  }
+  for (size_t v = 0; v < n; ++v) {
+    (*curvature)[v] = !on_border[v] && area[v] > 0.0 ? (*curvature)[v] / area[v] : 0.0;
+  }
+  return fill_border(context, triangles, on_border, curvature->span());
+}
+
+AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
+  AngleSum sum;
+  for (size_t v = 0; v < normals.size(); ++v) {
+    if (dot(given[v], given[v]) > 0.0) sum.add(angle_between(normals[v], given[v]));
+  }
+  return sum.statistics();
+}
+
+Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                       Span<const uint32_t> patch, Span<const uint8_t> on_curve,
+                       AngleStatistics* dihedral) {
+  Array<uint32_t> twins(context);
+  TRY(find_twins(static_cast<uint32_t>(positions.size()), triangles, &twins));
+  bool one_patch = true;
+  for (uint32_t p : patch) one_patch = one_patch && p == patch[0];
+  const auto face = [&](uint32_t h) {
+    const uint32_t* v = &triangles[h / 3 * 3];
+    return cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
+  };
+  AngleSum sum;
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    const uint32_t g = twins[h];
+    if (g == k_none || g < h || (!one_patch && patch[h / 3] == patch[g / 3])) continue;
+    if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
+    sum.add(angle_between(face(h), face(g)));
+  }
+  *dihedral = sum.statistics();
+  return {};
+}
+
+}  // namespace wireskin::mesh
