@@ -28,9 +28,9 @@ Surface torus_surface(double major_radius, double minor_radius);  // around the 
 Surface cylinder_surface(double radius);                          // around the z axis, endless
 Surface ellipsoid_surface(double a, double b, double c);
 Surface bumpy_surface();
-Surface saddle_surface();                              // endless
-Surface catenoid_surface(double waist);                // around the z axis, endless
-Surface cone_surface(double radius, double slope);     // radius + slope z around the z axis
+Surface saddle_surface();                               // endless
+Surface catenoid_surface(double waist);                 // around the z axis, endless
+Surface cone_surface(double radius, double slope);      // radius + slope z around the z axis
 Surface hump_surface(double height, double deviation);  // a Gaussian over the plane, normals up
 
 // The outer unit normal at a point of the surface.
@@ -79,8 +79,8 @@ Network revolution_band(const Surface& surface, double low, double high, unsigne
 Network cylinder_band(double radius, double half_height, unsigned lines, double spacing);
 
 // The same band as a triangle mesh whose two circles are constrained: rows of staggered vertices,
-// moved at random (by `seed`) by up to jitter * spacing. `tilt` turns the normals of the circles from radial
-// towards the nearer end (positive: a barrel) or the middle (negative: a bottleneck).
+// moved at random (by `seed`) by up to jitter * spacing. `tilt` turns the normals of the circles
+// from radial towards the nearer end (positive: a barrel) or the middle (negative: a bottleneck).
 struct BandMesh {
   std::vector<Point> positions;
   std::vector<Point> normals;  // at constrained vertices tilted, elsewhere radial

@@ -56,8 +56,14 @@ Result build(const Network& network, const wsk_options& options) {
   std::vector<wsk_curve> curves;
   for (size_t c = 0; c < network.curves.size(); ++c) {
     const auto& curve = network.curves[c];
-    curves.push_back({curve.vertices.size(), positions[c][0].data(), 0, normals[c][0].data(), 0,
-                      curve.vertices.data(), curve.closed, curve.boundary});
+    wsk_curve given = {};
+    given.sample_count = curve.vertices.size();
+    given.positions = positions[c][0].data();
+    given.normals = normals[c][0].data();
+    given.nodes = curve.vertices.data();
+    given.closed = curve.closed;
+    given.boundary = curve.boundary;
+    curves.push_back(given);
   }
   Result result;
   wsk_surface* surface = nullptr;

@@ -21,8 +21,8 @@ double distance_to_triangle(const Point& p, const Point& a, const Point& b, cons
     return dot(cross(to - from, q - from), n) >= 0.0;
   };
   if (left_of(a, b) && left_of(b, c) && left_of(c, a)) return std::fabs(height);
-  return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c),
-                   distance_to_segment(p, c, a)});
+  return std::min(
+      {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
 }
 
 static double distance_to_box(const Point& p, const Point& low, const Point& high) {
@@ -33,8 +33,7 @@ static double distance_to_box(const Point& p, const Point& low, const Point& hig
   return length(outside);
 }
 
-MeshDistance::MeshDistance(const Mesh& mesh)
-    : mesh_(mesh), order_(mesh.triangles.size()) {
+MeshDistance::MeshDistance(const Mesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
   split(0, static_cast<uint32_t>(order_.size()));
 }
@@ -75,7 +74,7 @@ void MeshDistance::search(uint32_t index, const Point& p, Nearest& best) const {
     for (uint32_t i = box.first; i < box.first + box.count; ++i) {
       const auto& t = mesh_.triangles[order_[i]];
       const double found = distance_to_triangle(p, mesh_.positions[t[0]], mesh_.positions[t[1]],
-                                                   mesh_.positions[t[2]]);
+                                                mesh_.positions[t[2]]);
       if (found < best.distance) best = {found, order_[i]};
     }
     return;
@@ -100,8 +99,7 @@ MeshDistance::Nearest MeshDistance::nearest(const Point& p) const {
 Point MeshDistance::triangle_normal(uint32_t triangle) const {
   const auto& t = mesh_.triangles[triangle];
   const Point& a = mesh_.positions[t[0]];
-  return unit(
-      cross(mesh_.positions[t[1]] - a, mesh_.positions[t[2]] - a));
+  return unit(cross(mesh_.positions[t[1]] - a, mesh_.positions[t[2]] - a));
 }
 
 double MeshDistance::diagonal() const {

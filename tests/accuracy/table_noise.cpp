@@ -17,9 +17,28 @@ struct Level {
   double degrees;
 };
 const Level k_levels[] = {
-    {"none", 0.0, 0.0},         {".05 %", 0.0005, 0.0}, {".2 %", 0.002, 0.0},
-    {".5 %", 0.005, 0.0},       {"2 degrees", 0.0, 2.0}, {"5 degrees", 0.0, 5.0},
+    {"none", 0.0, 0.0},
+    {".05 %", 0.0005, 0.0},
+    {".2 %", 0.002, 0.0},
+    {".5 %", 0.005, 0.0},
+    {"2 degrees", 0.0, 2.0},
+    {"5 degrees", 0.0, 5.0},
     {".2 %, 5 degrees", 0.002, 5.0},
+};
+
+// Curves as given, smoothed by cross validation, and soft with a cutoff in spacings.
+struct Treatment {
+  const char* name;
+  wsk_method method;
+  wsk_smoothing smoothing;
+  double soft;
+};
+const Treatment k_treatments[] = {
+    {"stanko", WSK_METHOD_STANKO, WSK_SMOOTHING_NONE, 0.0},
+    {"stanko, soft", WSK_METHOD_STANKO, WSK_SMOOTHING_NONE, 4.0},
+    {"fair, not smoothed", WSK_METHOD_FAIR, WSK_SMOOTHING_NONE, 0.0},
+    {"fair", WSK_METHOD_FAIR, WSK_SMOOTHING_AUTO, 0.0},
+    {"fair, soft", WSK_METHOD_FAIR, WSK_SMOOTHING_NONE, 4.0},
 };
 
 struct Shape {
@@ -72,15 +91,18 @@ Deviation against_clean(const Result& result, const networks::Network& clean) {
   return deviation;
 }
 
-void noise_rows(Page& page, Bounds& bounds, const Shape& shape, const Method& m) {
+void noise_rows(Page& page, Bounds& bounds, const Shape& shape, const Treatment& m) {
   const double size = diagonal(shape.network);
   double clean_ripples = 0.0;
   for (const Level& level : k_levels) {
-    const networks::Network noisy =
-        with_noise(shape.network, level.position * size, level.degrees);
-    const Result result = build(noisy, m.method, shape.spacing);
+    const networks::Network noisy = with_noise(shape.network, level.position * size, level.degrees);
+    wsk_options options = options_for(m.method, shape.spacing);
+    options.smoothing = m.smoothing;
+    options.soft = m.soft * shape.spacing;
+    const Result result = build(noisy, options);
     const std::string what = shape.name + ", " + m.name + ", noise " + level.name;
-    if (m.method == WSK_METHOD_FAIR) bounds.built(what, result);
+    const bool held = m.smoothing == WSK_SMOOTHING_AUTO;
+    if (held) bounds.built(what, result);
     if (result.status != WSK_OK) {
       page.row({shape.name, m.name, level.name, wsk_status_name(result.status), "", "", "", ""});
       continue;
@@ -93,7 +115,7 @@ void noise_rows(Page& page, Bounds& bounds, const Shape& shape, const Method& m)
               text("%.2f / %.2f", given.mean, given.max),
               text("%.2f / %.2f", clean.mean, clean.max), text("%.3g", ripples),
               text("%.2f", ripples / clean_ripples)});
-    if (m.method == WSK_METHOD_FAIR && shape.held && level.position <= 0.002) {
+    if (held && shape.held && level.position <= 0.002) {
       bounds.at_most(what + ", ripples", ripples / clean_ripples, 1.3);
     }
   }
@@ -107,15 +129,13 @@ void noise_table(Page& page, Bounds& bounds) {
       "Gaussian noise on every sample: positions in percent of the diagonal (each coordinate), "
       "normals in degrees (each tangent). Samples are as far apart as the vertices of the mesh. "
       "Curve normals against those that the method used and, through the nearest sample, those "
-      "before the noise. Ripples: area times the integral of |grad H|^2, and that over its value "
+      "before the noise. Soft: a cutoff of four spacings. Ripples: area times the integral of "
+      "|grad H|^2, and that over its value "
       "without noise.");
   page.header({"shape", "method", "noise", "RMS", "curve normals, used", "curve normals, clean",
                "ripples", "over clean"});
   for (const Shape& shape : shapes()) {
-    for (const Method& m : k_methods) {
-      if (m.method != WSK_METHOD_STANKO && m.method != WSK_METHOD_FAIR) continue;
-      noise_rows(page, bounds, shape, m);
-    }
+    for (const Treatment& m : k_treatments) noise_rows(page, bounds, shape, m);
   }
   page.end_table();
 }

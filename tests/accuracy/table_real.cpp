@@ -1,6 +1,5 @@
 // Measured shapes: lilium against its scanned surface, and meshes cut by planes.
 #include <algorithm>
-#include <cstring>
 
 #include "accuracy/noise.h"
 #include "accuracy/real.h"
@@ -9,15 +8,6 @@
 namespace accuracy {
 
 namespace {
-
-template <typename Report>
-auto guarded(const Report& report, int) -> decltype(text("%u", report.guarded_patches)) {
-  return text("%u", report.guarded_patches);
-}
-template <typename Report>
-std::string guarded(const Report&, long) {
-  return "";
-}
 
 std::string list(const std::vector<uint32_t>& patches) {
   std::string words;
@@ -49,8 +39,8 @@ RealRow real_row(Page& page, const RealCase& c, const Method& m, double stanko) 
             text("%.1f", size * row.error.max),
             stanko > 0.0 ? text("%.2f", row.error.rms / stanko) : "",
             text("%.2f / %.1f", row.curve_normals.mean, row.curve_normals.max),
-            list(row.error.folded), list(row.error.inside_out), guarded(result.report, 0),
-            text("%.0f", result.report.total_ms)});
+            list(row.error.folded), list(row.error.inside_out),
+            text("%u", result.report.guarded_patches), text("%.0f", result.report.total_ms)});
   return row;
 }
 
@@ -65,10 +55,6 @@ struct Ratios {
   }
   double mean() const { return count > 0 ? std::exp(log_sum / count) : 0.0; }
 };
-
-bool has(const Method& m, wsk_method method) {
-  return m.method == method;
-}
 
 }  // namespace
 
@@ -92,12 +78,12 @@ void real_table(Page& page, Bounds& bounds) {
     double stanko = 0.0;
     for (const Method& m : {k_methods[3], k_methods[0], k_methods[4], k_methods[5]}) {
       const RealRow row = real_row(page, c, m, stanko);
-      if (has(m, WSK_METHOD_STANKO)) stanko = row.error.rms;
+      if (m.method == WSK_METHOD_STANKO) stanko = row.error.rms;
       const bool cut = c.name != "lilium";
-      if (cut && row.built && stanko > 0.0 && has(m, WSK_METHOD_ITERATED)) {
+      if (cut && row.built && stanko > 0.0 && m.method == WSK_METHOD_ITERATED) {
         iterated_ratios.add(row.error.rms / stanko);
       }
-      if (!has(m, WSK_METHOD_FAIR)) continue;
+      if (m.method != WSK_METHOD_FAIR) continue;
       bounds.at_most(c.name + ", not built", row.built ? 0.0 : 1.0, 0.0);
       if (!row.built) continue;
       bounds.at_most(c.name + ", inside-out patches",
@@ -111,10 +97,10 @@ void real_table(Page& page, Bounds& bounds) {
     }
   }
   page.end_table();
-  page.paragraph(text("Cuts, RMS over stanko: fair %.2f in the geometric mean, at most %.2f; "
-                      "iterated %.2f, at most %.2f.",
-                      fair_ratios.mean(), fair_ratios.worst, iterated_ratios.mean(),
-                      iterated_ratios.worst));
+  page.paragraph(
+      text("Cuts, RMS over stanko: fair %.2f in the geometric mean, at most %.2f; "
+           "iterated %.2f, at most %.2f.",
+           fair_ratios.mean(), fair_ratios.worst, iterated_ratios.mean(), iterated_ratios.worst));
   if (fair_ratios.count > 0) {
     bounds.at_most("cuts, geometric mean over stanko", fair_ratios.mean(), 0.5);
     bounds.at_most("cuts, worst over stanko", fair_ratios.worst, 1.1);

@@ -37,7 +37,8 @@ int main(int count, char** arguments) {
   accuracy::Bounds bounds;
   page.paragraph(
       "# Accuracy\n\nWritten by `accuracy_tables`. RMS and greatest distance are those of the free "
-      "vertices to the surface that the curves were taken from, in the units of the surface; angles "
+      "vertices to the surface that the curves were taken from, in the units of the surface; "
+      "angles "
       "are in degrees, mean / greatest.");
   accuracy::published_table(page);
   for (const Part& part : k_parts) {

@@ -19,8 +19,7 @@ class Bounds {
   void built(const std::string& what, const Result& result) {
     ++asked_;
     if (result.status == WSK_OK) return;
-    broken_.push_back(what + ": " + wsk_status_name(result.status) + ", " +
-                      result.report.sentence);
+    broken_.push_back(what + ": " + wsk_status_name(result.status) + ", " + result.report.sentence);
   }
   size_t asked() const { return asked_; }
   const std::vector<std::string>& broken() const { return broken_; }
