@@ -104,6 +104,7 @@ static void report_counts(const Counts& counts, const Scale& unscale, wsk_report
   report->noise_position = unscale(counts.noise.sigma_position);
   report->noise_normal = counts.noise.sigma_normal;
   report->cg_iterations = counts.iterations;
+  report->minimal_area_patches = counts.minimal_area_patches;
   report->guarded_patches = counts.guarded_patches;
   report->constraint_distance_max = unscale(counts.greatest_distance);
   report->constraint_distance_rms = unscale(std::sqrt(counts.mean_square_distance));

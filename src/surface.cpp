@@ -7,6 +7,10 @@
 
 namespace wireskin {
 
+// A plane that sees part of a border more steeply than this distorts the mesh; the methods that leave the
+// planes behind then start better from a triangulation in space.
+static constexpr double k_least_facing = 0.25;
+
 static double diagonal(Span<const Vec3> points) {
   Vec3 low = points[0], high = points[0];
   for (const Vec3& p : points) {
@@ -316,7 +320,12 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(list_curve_edges(network, vertices, surface));
 
   TRY(context.enter(Stage::patches));
-  TRY(network::mesh_patches(network, vertices, &patches));
+  const bool in_space =
+      settings.method == smooth::Method::iterated || settings.method == smooth::Method::fair;
+  TRY(network::mesh_patches(network, vertices, in_space ? k_least_facing : -1.0, &patches));
+  for (network::PatchWay way : patches.way) {
+    counts->minimal_area_patches += way == network::PatchWay::minimal_area;
+  }
   counts->free_vertices = patches.vertices - patches.curve_vertices;
   TRY(take_vertices(vertices, patches, surface));
   TRY(in_terms_of_nodes(

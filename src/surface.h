@@ -47,6 +47,7 @@ struct Counts {
   double spacing = 0.0;
   double least_angle = 0.0;  // degrees
   double residual = 0.0;
+  uint32_t minimal_area_patches = 0;
   uint32_t guarded_patches = 0;
   uint32_t iterations = 0;  // of conjugate gradients
   network::SmoothingReport noise;

@@ -269,6 +269,7 @@ typedef struct wsk_report {
   double residual;      /* relative residual of the last linear solve, greatest of its columns */
   uint32_t factorisations; /* Cholesky factorisations, of whatever size */
   uint32_t cg_iterations;  /* iterations of conjugate gradients with an earlier factor */
+  uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
   uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them */
   double noise_position; /* standard deviation of each coordinate, as estimated; 0 if not */
   double noise_normal;   /* the same of the unit normals' components */

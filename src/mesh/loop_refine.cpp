@@ -1,6 +1,7 @@
 #include "mesh/loop_refine.h"
 
 #include "mesh/curvature.h"
+#include "num/minmax.h"
 
 namespace wireskin::mesh {
 
@@ -64,15 +65,16 @@ static Diamond diamond_at(const LoopRefinement& r, uint32_t h) {
   return {r.origin(h), r.origin(g), r.apex(h), r.apex(g)};
 }
 
-static double larger(double a, double b) {
-  return b > a ? b : a;
-}
-static double smaller(double a, double b) {
-  return b < a ? b : a;
-}
-
-// The cotangent of the least angle; beyond all others without area.
-static double greatest_cotangent(const Vec3& a, const Vec3& b, const Vec3& c) {
+// The cotangent of a triangle's least angle; beyond all others without area. The same bits
+// whichever corner comes first, or rounding could make two needles take turns for ever.
+static double greatest_cotangent(const LoopRefinement& r, uint32_t i, uint32_t j, uint32_t k) {
+  while (i > j || i > k) {
+    const uint32_t first = i;
+    i = j;
+    j = k;
+    k = first;
+  }
+  const Vec3 &a = r.at(i), &b = r.at(j), &c = r.at(k);
   const double at_a = dot(b - a, c - a), at_b = dot(c - b, a - b), at_c = dot(a - c, b - c);
   const double twice_area = length(cross(b - a, c - a));
   return twice_area > 0.0 ? larger(at_a, larger(at_b, at_c)) / twice_area : DBL_MAX;
@@ -96,10 +98,12 @@ static bool improves_by_flip(const LoopRefinement& r, uint32_t h) {
   constexpr double k_gain = 1e-9, k_least_facing = 0.5;
   if (r.twins[h] == k_none) return false;
   const Diamond q = diamond_at(r, h);
-  const Vec3 &a = r.at(q.a), &b = r.at(q.b), &c = r.at(q.c), &d = r.at(q.d);
-  const double before = larger(greatest_cotangent(a, b, c), greatest_cotangent(b, a, d));
-  const double after = larger(greatest_cotangent(a, d, c), greatest_cotangent(d, b, c));
+  const double before =
+      larger(greatest_cotangent(r, q.a, q.b, q.c), greatest_cotangent(r, q.b, q.a, q.d));
+  const double after =
+      larger(greatest_cotangent(r, q.a, q.d, q.c), greatest_cotangent(r, q.d, q.b, q.c));
   if (!(after < before - k_gain * (1.0 + std::fabs(after)))) return false;
+  const Vec3 &a = r.at(q.a), &b = r.at(q.b), &c = r.at(q.c), &d = r.at(q.d);
   // Across a sharp edge a flip would change the surface, or turn a triangle over. Needles have no
   // say in what the direction is.
   const Vec3 facing = unit(cross(b - a, c - a) + cross(a - b, d - b));
@@ -136,11 +140,15 @@ static Status flip_diamond(LoopRefinement* r, uint32_t h) {
   return r->suspect.push(s + 2);
 }
 
+// Cut short where more edges than there are would flip: no sound mesh comes near that.
 static Status flip_suspects(LoopRefinement* r) {
+  size_t flips_left = r->twins.size();
   while (!r->suspect.empty()) {
     const uint32_t h = r->suspect.back();
     r->suspect.pop();
-    if (improves_by_flip(*r, h)) TRY(flip_diamond(r, h));
+    if (flips_left == 0 || !improves_by_flip(*r, h)) continue;
+    TRY(flip_diamond(r, h));
+    --flips_left;
   }
   return {};
 }

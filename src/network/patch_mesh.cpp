@@ -1,6 +1,7 @@
 #include "network/patch_mesh.h"
 
 #include "base/sort.h"
+#include "mesh/loop_mesh.h"
 #include "network/enclosure.h"
 #include "planar/polygon_mesh.h"
 
@@ -15,11 +16,11 @@ struct Chord {
   uint32_t patch;
 };
 
-// What is gathered over all patches: corner[3 t + k] is corner k of triangle t in its patch's
-// plane.
+// What is gathered over all patches: corner[3 t + k] is corner k of triangle t, in space or in its
+// patch's plane (z = 0; the same vertex then has another place in each patch).
 struct Builder {
   PatchMesh* mesh;
-  Array<Vec2> corner;
+  Array<Vec3> corner;
   Array<Chord> chord;
   Array<uint32_t> patch_start;  // first triangle of each patch, before chords are split
 
@@ -27,13 +28,27 @@ struct Builder {
       : mesh(result), corner(context), chord(context), patch_start(context) {}
 };
 
-// Memory for one patch, reused.
+// Memory for one patch, reused: the border, the mesh either way, and what both come to: triangles
+// over border vertices 0 .. n - 1 and inner ones from n, the corners' places for the metric, and
+// where the inner vertices may start in space.
 struct PatchScratch {
   Array<uint32_t> border;
   Array<Vec2> polygon;
+  Array<Vec3> loop, loop_normal;
   planar::PolygonMesh planar;
+  mesh::LoopMesh spatial;
+  Array<Vec3> place;
+  Array<Vec3> inner;
 
-  explicit PatchScratch(Context& context) : border(context), polygon(context), planar(context) {}
+  explicit PatchScratch(Context& context)
+      : border(context),
+        polygon(context),
+        loop(context),
+        loop_normal(context),
+        planar(context),
+        spatial(context),
+        place(context),
+        inner(context) {}
 };
 
 }  // namespace
@@ -60,18 +75,17 @@ static double mean_edge(const CurveVertices& vertices, Span<const uint32_t> bord
   return sum / static_cast<double>(border.size());
 }
 
-// The planar mesh numbers border vertices 0 .. n - 1 and inner ones from n.
-static Status append_patch(const PatchScratch& scratch, uint32_t patch, Builder* builder) {
+static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
+                           uint32_t patch, Builder* builder) {
   PatchMesh* mesh = builder->mesh;
   const uint32_t n = static_cast<uint32_t>(scratch.border.size());
   const auto global = [&](uint32_t v) {
     return v < n ? scratch.border[v] : mesh->vertices + (v - n);
   };
-  const Array<uint32_t>& triangle = scratch.planar.triangles;
   for (size_t h = 0; h < triangle.size(); ++h) {
     const uint32_t a = triangle[h], b = triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
     TRY(mesh->triangle.push(global(a)));
-    TRY(builder->corner.push(scratch.planar.points[a]));
+    TRY(builder->corner.push(scratch.place[a]));
     if (h % 3 == 0) TRY(mesh->patch.push(patch));
     const bool on_border = (a + 1) % n == b || (b + 1) % n == a;
     // Each edge inside is met once in each direction; the ascending one is noted.
@@ -79,7 +93,8 @@ static Status append_patch(const PatchScratch& scratch, uint32_t patch, Builder*
       TRY(builder->chord.push({global(a), global(b), patch}));
     }
   }
-  const uint64_t vertices = uint64_t{mesh->vertices} + scratch.planar.points.size() - n;
+  for (const Vec3& p : scratch.inner) TRY(mesh->start.push(p));
+  const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
   if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
     return fail(Code::too_large, "the spacing is too small for the network");
   }
@@ -87,22 +102,65 @@ static Status append_patch(const PatchScratch& scratch, uint32_t patch, Builder*
   return {};
 }
 
-static Status mesh_patch(const Network& network, const CurveVertices& vertices,
-                         const Enclosure& enclosure, uint32_t patch, PatchScratch* scratch,
-                         Builder* builder) {
-  Context& context = scratch->border.context();
+static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& enclosure,
+                            double spacing, double least_facing, PatchScratch* scratch) {
   Plane plane;
-  TRY(border_of_patch(network, vertices, patch, &scratch->border));
   TRY(fit_plane(vertices, scratch->border.span(), &plane));
-  TRY(scratch->polygon.resize(scratch->border.size()));
-  for (size_t i = 0; i < scratch->border.size(); ++i) {
-    scratch->polygon[i] = plane.project(vertices.position[scratch->border[i]]);
+  const size_t n = scratch->border.size();
+  TRY(scratch->polygon.resize(n));
+  double facing = 1.0;
+  for (size_t i = 0; i < n; ++i) {
+    scratch->polygon[i] = plane.project(scratch->loop[i]);
+    const double cosine = dot(scratch->loop_normal[i], plane.normal);
+    if (cosine < facing) facing = cosine;
   }
   TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
-  double spacing = mean_edge(vertices, scratch->border.span());
+  if (facing < least_facing) {
+    return fail(Code::patch_without_plane, "the plane of the patch sees its border edge-on");
+  }
   round_to_grid(scratch->polygon.span(), &spacing);
-  TRY(planar::mesh_polygon(context, scratch->polygon.span(), spacing, &scratch->planar));
-  return append_patch(*scratch, patch, builder);
+  TRY(planar::mesh_polygon(scratch->border.context(), scratch->polygon.span(), spacing,
+                           &scratch->planar));
+  const Array<Vec2>& points = scratch->planar.points;
+  TRY(scratch->place.resize(points.size()));
+  TRY(scratch->inner.resize(points.size() - n));
+  for (size_t i = 0; i < points.size(); ++i) {
+    scratch->place[i] = {points[i].x, points[i].y, 0.0};
+    if (i >= n) scratch->inner[i - n] = plane.lift(points[i]);
+  }
+  return {};
+}
+
+static Status mesh_in_space(double spacing, PatchScratch* scratch) {
+  TRY(mesh::mesh_loop(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span(),
+                      spacing, &scratch->spatial));
+  TRY(scratch->inner.copy(scratch->spatial.inner.span()));
+  TRY(scratch->place.copy(scratch->loop.span()));
+  for (const Vec3& p : scratch->inner) TRY(scratch->place.push(p));
+  return {};
+}
+
+static Status mesh_patch(const Network& network, const CurveVertices& vertices,
+                         const Enclosure& enclosure, double least_facing, uint32_t patch,
+                         PatchScratch* scratch, Builder* builder) {
+  TRY(border_of_patch(network, vertices, patch, &scratch->border));
+  const size_t n = scratch->border.size();
+  TRY(scratch->loop.resize(n));
+  TRY(scratch->loop_normal.resize(n));
+  for (size_t i = 0; i < n; ++i) {
+    scratch->loop[i] = vertices.position[scratch->border[i]];
+    scratch->loop_normal[i] = vertices.normal[scratch->border[i]];
+  }
+  const double spacing = mean_edge(vertices, scratch->border.span());
+  const Status status = mesh_in_plane(vertices, enclosure, spacing, least_facing, scratch);
+  if (status.ok()) {
+    TRY(builder->mesh->way.push(PatchWay::plane));
+    return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
+  }
+  if (status.code != Code::patch_without_plane && status.code != Code::patch_folded) return status;
+  TRY(mesh_in_space(spacing, scratch));
+  TRY(builder->mesh->way.push(PatchWay::minimal_area));
+  return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
 }
 
 // Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the
@@ -110,9 +168,9 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
 static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
   PatchMesh* mesh = builder->mesh;
   const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
-  const Vec2 middle = 0.5 * (builder->corner[h] + builder->corner[next]);
+  const Vec3 middle = 0.5 * (builder->corner[h] + builder->corner[next]);
   const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
-  const Vec2 corner[3] = {middle, builder->corner[next], builder->corner[previous]};
+  const Vec3 corner[3] = {middle, builder->corner[next], builder->corner[previous]};
   for (int k = 0; k < 3; ++k) {
     TRY(mesh->triangle.push(vertex[k]));
     TRY(builder->corner.push(corner[k]));
@@ -141,6 +199,7 @@ static Status split_chord(const Chord& chord, Builder* builder) {
     return fail(Code::too_large, "the spacing is too small for the network");
   }
   const uint32_t middle = mesh->vertices++;
+  TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
   const uint32_t* own = &builder->patch_start[chord.patch];
   const uint32_t first_split = builder->patch_start.back();
   const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
@@ -174,23 +233,25 @@ static Status split_shared_chords(const Network& network, const CurveVertices& v
   return {};
 }
 
-Status mesh_patches(const Network& network, const CurveVertices& vertices, PatchMesh* mesh) {
+Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
+                    PatchMesh* mesh) {
   Context& context = mesh->triangle.context();
   Builder builder(context, mesh);
   PatchScratch scratch(context);
   Enclosure enclosure(context);
   TRY(enclosure.find_components(network, vertices));
   mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
+  TRY(mesh->start.copy(vertices.position.span()));
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    TRY(at_patch(mesh_patch(network, vertices, enclosure, p, &scratch, &builder), network, p));
+    TRY(at_patch(mesh_patch(network, vertices, enclosure, least_facing, p, &scratch, &builder), network, p));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
   TRY(split_shared_chords(network, vertices, &builder));
   TRY(mesh->shape.resize(mesh->patch.size()));
   for (size_t t = 0; t < mesh->shape.size(); ++t) {
-    const Vec2* corner = &builder.corner[3 * t];
+    const Vec3* corner = &builder.corner[3 * t];
     mesh->shape[t] = mesh::triangle_shape(corner[0], corner[1], corner[2]);
   }
   return {};

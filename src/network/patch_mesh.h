@@ -4,6 +4,8 @@
 // In: the vertices on the curves and the cycles. Out: triangles over the curve vertices (first) and
 // the free vertices, each triangle with its shape in its patch's plane, the metric of the paper's
 // method. The plane goes through the mean of the border's positions across the mean of its normals.
+// A patch whose border has no plane, or folds in it, is meshed in space instead (mesh/loop_mesh.h),
+// and its triangles have their shapes there.
 // No vertex is ever added on a curve, so patches conform; a chord between curve vertices that would
 // stand in two patches, or beside a curve, is split by a free vertex. O(n log n). Source: T. Stanko
 // et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3.
@@ -14,17 +16,27 @@
 
 namespace wireskin::network {
 
+// How a patch got its triangles.
+enum class PatchWay : uint8_t { plane, minimal_area };
+
 struct PatchMesh {
   uint32_t vertices = 0;
   uint32_t curve_vertices = 0;
   Array<uint32_t> triangle;          // three vertices each
   Array<uint32_t> patch;             // of each triangle
-  Array<mesh::TriangleShape> shape;  // of each triangle, in its patch's plane
+  Array<mesh::TriangleShape> shape;  // of each triangle, in its patch's plane or in space
+  Array<PatchWay> way;               // of each patch
+  Array<Vec3> start;                 // of each vertex: on its curve, in its plane or in space
 
-  explicit PatchMesh(Context& context) : triangle(context), patch(context), shape(context) {}
+  explicit PatchMesh(Context& context)
+      : triangle(context), patch(context), shape(context), way(context), start(context) {}
 };
 
-// Fails with patch_without_plane, patch_folded or patch_several_loops, naming the patch.
-Status mesh_patches(const Network& network, const CurveVertices& vertices, PatchMesh* mesh);
+// `least_facing`: a plane is taken only where the cosine between its normal and each normal of the
+// border is at least this; -1 takes every plane that shows the border without folds.
+// Fails with patch_several_loops, or with patch_folded where the border encloses nothing in space
+// either, naming the patch.
+Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
+                    PatchMesh* mesh);
 
 }  // namespace wireskin::network

@@ -14,6 +14,7 @@ struct Plane {
   Vec3 origin, u, v, normal;
 
   Vec2 project(const Vec3& p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
+  Vec3 lift(Vec2 p) const { return origin + p.x * u + p.y * v; }
   double height(const Vec3& p) const { return dot(p - origin, normal); }
 };
 

@@ -11,6 +11,8 @@ namespace wireskin::smooth {
 static constexpr double k_greatest_step = 0.25;
 static constexpr double k_growing_step = 0.1;
 static constexpr double k_growth = 1.5;
+// Steps smaller than this share of every patch change nothing that one could see or measure.
+static constexpr double k_small_step = 1e-4;
 
 namespace {
 
@@ -160,6 +162,11 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   for (int k = 0; k < options.displacement_steps; ++k) {
     TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), &solver, &guard,
                           report));
+    double greatest = 0.0;
+    for (size_t p = 0; p < guard.step.size(); ++p) {
+      if (!guard.frozen[p] && guard.step[p] > greatest) greatest = guard.step[p];
+    }
+    if (greatest < k_small_step) break;
   }
   if (options.displacement_steps > 0) report->residual = solver.residual();
   report->factorisations = solver.factorisations();

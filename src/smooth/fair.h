@@ -1,5 +1,5 @@
 // The fair surface: positions of the free vertices from a harmonic start, two steps of the paper's
-// method on the current mesh in space, and three steps of minimum variation, with mesh care
+// method on the current mesh in space, and up to six steps of minimum variation, with mesh care
 // between.
 //
 // In: a mesh with held vertices (positions, unit normals), the patch of each triangle, and the
@@ -30,7 +30,7 @@ struct FairMesh {
 
 struct FairOptions {
   int paper_steps = 2;
-  int displacement_steps = 3;
+  int displacement_steps = 6;  // at most; fewer where they have become small
   double smoothness = 0.12;  // c: the smoothing length in units of sqrt(area of the mesh / patches)
 };
 
