@@ -9,6 +9,16 @@ namespace accuracy {
 
 using namespace networks;  // its operators on points are not found otherwise
 
+Mesh mesh_of(const Result& result) {
+  Mesh mesh;
+  mesh.positions = result.positions;
+  for (size_t t = 0; t < result.triangles.size(); t += 3) {
+    mesh.triangles.push_back(
+        {result.triangles[t], result.triangles[t + 1], result.triangles[t + 2]});
+  }
+  return mesh;
+}
+
 static double milliseconds(void*) {
   using namespace std::chrono;
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
@@ -140,10 +150,16 @@ Deviation normal_deviation(const Result& result, const Surface& surface) {
   });
 }
 
-Deviation true_curve_normal_deviation(const Result& result, const Surface& surface) {
-  return deviation_of(result, false, [&](size_t v) {
-    return normal_at(surface, closest_point(surface, result.positions[v]));
-  });
+double unavoidable_deviation(const Result& result, const Surface& surface) {
+  Mesh mesh = mesh_of(result);
+  for (Point& p : mesh.positions) p = closest_point(surface, p);
+  const std::vector<Point> normals = vertex_normals(mesh);
+  double greatest = 0.0;
+  for (size_t v = 0; v < normals.size(); ++v) {
+    if (result.is_free(v)) continue;
+    greatest = std::fmax(greatest, angle_between(normals[v], result.constraint_normals[v]));
+  }
+  return greatest;
 }
 
 // Vertices at which edges with a single triangle end.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "closed_forms.h"
+#include "cut.h"
 #include "network.h"
 #include "wireskin.h"
 
@@ -21,6 +22,8 @@ struct Result {
 
   bool is_free(size_t v) const { return vertex_curve[v] == WSK_NONE; }
 };
+
+networks::Mesh mesh_of(const Result& result);
 
 // Defaults, with a clock; spacing 0 is the library's.
 wsk_options options_for(wsk_method method, double spacing);
@@ -47,8 +50,10 @@ Deviation curve_normal_deviation(const Result& result);
 // The same between the normals of the mesh at free vertices and those of the surface next to them.
 Deviation normal_deviation(const Result& result, const networks::Surface& surface);
 
-// The same between the normals of the mesh on the curves and those of the surface.
-Deviation true_curve_normal_deviation(const Result& result, const networks::Surface& surface);
+// The greatest angle on the curves that no method can avoid: the normals of a mesh differ from the
+// surface's, at an open border by half a triangle's bend. That of the same mesh with all vertices
+// put on the surface.
+double unavoidable_deviation(const Result& result, const networks::Surface& surface);
 
 // area * integral |grad H|^2 with H linear on each triangle: how much the surface ripples, whatever
 // its size. Triangles at an open border are left out, where H is one-sided.

@@ -14,12 +14,7 @@ constexpr int k_levels = 4;
 
 // RMS and greatest distance of the vertices of `coarse` from the mesh of `fine`.
 Error between_levels(const Result& coarse, const Result& fine) {
-  networks::Mesh mesh;
-  mesh.positions = fine.positions;
-  for (size_t t = 0; t < fine.triangles.size(); t += 3) {
-    mesh.triangles.push_back({fine.triangles[t], fine.triangles[t + 1], fine.triangles[t + 2]});
-  }
-  const MeshDistance distance(mesh);
+  const MeshDistance distance(mesh_of(fine));
   Error error;
   double sum = 0.0;
   for (const auto& p : coarse.positions) {

@@ -114,7 +114,7 @@ void noise_rows(Page& page, Bounds& bounds, const Shape& shape, const Treatment&
     page.row({shape.name, m.name, level.name, text("%.2e", shape.rms(result)),
               text("%.2f / %.2f", given.mean, given.max),
               text("%.2f / %.2f", clean.mean, clean.max), text("%.3g", ripples),
-              text("%.2f", ripples / clean_ripples)});
+              clean_ripples > 10.0 ? text("%.2f", ripples / clean_ripples) : ""});
     if (held && shape.held && level.position <= 0.002) {
       bounds.at_most(what + ", ripples", ripples / clean_ripples, 1.3);
     }
@@ -131,7 +131,7 @@ void noise_table(Page& page, Bounds& bounds) {
       "Curve normals against those that the method used and, through the nearest sample, those "
       "before the noise. Soft: a cutoff of four spacings. Ripples: area times the integral of "
       "|grad H|^2, and that over its value "
-      "without noise.");
+      "without noise where that is not nearly 0.");
   page.header({"shape", "method", "noise", "RMS", "curve normals, used", "curve normals, clean",
                "ripples", "over clean"});
   for (const Shape& shape : shapes()) {
