@@ -43,6 +43,12 @@ options:
                      biharmonic, triharmonic: least square Laplacian, which lets the normals
                      order the curves but not shape the surface
                      clamped: biharmonic with curvature prescribed on the curves
+  --smooth auto|0|SIGMA
+                     noise of the samples: found and taken out (auto, the default of fair), none,
+                     so that curves are interpolated (0, the default of all other methods), or its
+                     standard deviation in the units of the input
+  --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
+                     smoothed away
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
                      written too, with the place of the fault, if no surface can be built
   --image FILE.png   write a shaded picture with isophote stripes and the curves
@@ -71,12 +77,25 @@ wsk_method method_of(const std::string& name) {
   wrong_usage("unknown method " + in_quotes(name) + ", known are " + known);
 }
 
-double spacing_of(const std::string& text) {
-  double spacing = 0.0;
-  if (!parse_double(text, &spacing) || !(spacing > 0.0) || !std::isfinite(spacing)) {
-    wrong_usage("--spacing needs a length above zero, not " + in_quotes(text));
+double length_of(const std::string& option, const std::string& text) {
+  double length = 0.0;
+  if (!parse_double(text, &length) || !(length > 0.0) || !std::isfinite(length)) {
+    wrong_usage(option + " needs a length above zero, not " + in_quotes(text));
   }
-  return spacing;
+  return length;
+}
+
+// auto, 0, or the standard deviation of the noise.
+void read_smoothing(const std::string& text, Arguments* arguments) {
+  arguments->smoothing = WSK_SMOOTHING_GIVEN;
+  if (text == "auto") {
+    arguments->smoothing = WSK_SMOOTHING_AUTO;
+  } else if (!parse_double(text, &arguments->noise) || !(arguments->noise >= 0.0) ||
+             !std::isfinite(arguments->noise)) {
+    wrong_usage("--smooth needs auto, 0 or a length, not " + in_quotes(text));
+  } else if (arguments->noise == 0.0) {
+    arguments->smoothing = WSK_SMOOTHING_NONE;
+  }
 }
 
 int axis_of(const std::string& name) {
@@ -145,7 +164,11 @@ bool take_option(Words& words, Arguments& arguments) {
   } else if (words.is("-o")) {
     arguments.output = words.value();
   } else if (words.is("--spacing")) {
-    arguments.spacing = spacing_of(words.value());
+    arguments.spacing = length_of("--spacing", words.value());
+  } else if (words.is("--smooth")) {
+    read_smoothing(words.value(), &arguments);
+  } else if (words.is("--soft")) {
+    arguments.soft = length_of("--soft", words.value());
   } else if (words.is("--method")) {
     arguments.method = method_of(words.value());
   } else if (words.is("--up")) {

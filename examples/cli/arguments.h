@@ -16,7 +16,10 @@ struct Arguments {
   std::string report;  // "" for none, like image
   std::string image;
   double spacing = 0.0;  // 0: the library's default
-  wsk_method method = WSK_METHOD_STANKO;
+  wsk_smoothing smoothing = WSK_SMOOTHING_DEFAULT;
+  double noise = 0.0;
+  double soft = 0.0;
+  wsk_method method = WSK_METHOD_FAIR;
   int up_axis = 2;  // of the picture: 0, 1, 2 for x, y, z
   bool quiet = false;
   bool help = false;

@@ -57,6 +57,9 @@ BuildResult build_surface(const Network& network, const Arguments& arguments,
   wsk_options_init(&options, sizeof options);
   options.method = arguments.method;
   options.spacing = arguments.spacing;
+  options.smoothing = arguments.smoothing;
+  options.noise = arguments.noise;
+  options.soft = arguments.soft;
   options.cancel = callbacks.cancel;
   options.cancel_user = callbacks.user;
   options.progress = callbacks.progress;

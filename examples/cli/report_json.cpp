@@ -124,6 +124,18 @@ std::string report_json(const Arguments& arguments, const wsk_report& report) {
   json.number("spacing", report.spacing);
   json.number("min_angle_deg", report.min_angle_deg);
   json.number("residual", report.residual);
+  json.count("factorisations", report.factorisations);
+  json.count("cg_iterations", report.cg_iterations);
+  json.count("minimal_area_patches", report.minimal_area_patches);
+  json.count("guarded_patches", report.guarded_patches);
+  json.number("noise_position", report.noise_position);
+  json.number("noise_normal", report.noise_normal);
+  json.number("constraint_distance_max", report.constraint_distance_max);
+  json.number("constraint_distance_rms", report.constraint_distance_rms);
+  json.number("normal_deviation_mean_deg", report.normal_deviation_mean_deg);
+  json.number("normal_deviation_max_deg", report.normal_deviation_max_deg);
+  json.number("dihedral_mean_deg", report.dihedral_mean_deg);
+  json.number("dihedral_max_deg", report.dihedral_max_deg);
   json.count("peak_bytes", static_cast<long long>(report.peak_bytes));
   json.member("stage_ms", stages_json(report));
   json.number("total_ms", report.total_ms);
