@@ -1,7 +1,9 @@
 #include "accuracy/real.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "io.h"
 
@@ -116,6 +118,23 @@ std::vector<RealCase> cut_meshes() {
   return cases;
 }
 
+static uint32_t count_sharp_edges(const Result& result) {
+  std::map<std::pair<uint32_t, uint32_t>, Point> first;
+  uint32_t sharp = 0;
+  for (size_t t = 0; t < result.triangles.size(); t += 3) {
+    const uint32_t* v = &result.triangles[t];
+    const Point& p = result.positions[v[0]];
+    const Point normal = cross(result.positions[v[1]] - p, result.positions[v[2]] - p);
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t a = v[i], b = v[(i + 1) % 3];
+      const auto [known, added] = first.insert({std::minmax(a, b), normal});
+      if (added || (!result.is_free(a) && !result.is_free(b))) continue;
+      if (dot(known->second, normal) < 0.0) ++sharp;
+    }
+  }
+  return sharp;
+}
+
 RealError real_error(const Result& result, const RealCase& c) {
   RealError error;
   double sum = 0.0;
@@ -147,9 +166,10 @@ RealError real_error(const Result& result, const RealCase& c) {
     total_opposed += size;
   }
   error.opposed = total_opposed / total;
+  error.sharp_edges = count_sharp_edges(result);
   for (uint32_t patch = 0; patch < area.size(); ++patch) {
     if (opposed[patch] > 0.5 * area[patch]) error.inside_out.push_back(patch);
-    if (opposed[patch] > 0.01 * area[patch]) error.folded.push_back(patch);
+    if (opposed[patch] > 0.01 * area[patch]) error.opposing.push_back(patch);
   }
   return error;
 }

@@ -37,7 +37,9 @@ struct RealError {
   double max = 0.0;
   double opposed = 0.0;  // share of the area whose triangles face against the mesh next to them
   std::vector<uint32_t> inside_out;  // patches most of whose area does
-  std::vector<uint32_t> folded;      // patches of whose area more than a hundredth does
+  std::vector<uint32_t> opposing;    // patches of whose area more than a hundredth does
+  // Edges inside patches whose two triangles face against each other: the surface itself is folded.
+  uint32_t sharp_edges = 0;
 };
 RealError real_error(const Result& result, const RealCase& c);
 

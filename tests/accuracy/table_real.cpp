@@ -27,7 +27,7 @@ RealRow real_row(Page& page, const RealCase& c, const Method& m, double stanko) 
   RealRow row;
   if (result.status != WSK_OK) {
     page.row({c.name, m.name, text("%u", result.report.patches), wsk_status_name(result.status), "",
-              "", "", "", "", "", "", ""});
+              "", "", "", "", "", "", "", ""});
     return row;
   }
   row.built = true;
@@ -39,7 +39,7 @@ RealRow real_row(Page& page, const RealCase& c, const Method& m, double stanko) 
             text("%.1f", size * row.error.max),
             stanko > 0.0 ? text("%.2f", row.error.rms / stanko) : "",
             text("%.2f / %.1f", row.curve_normals.mean, row.curve_normals.max),
-            list(row.error.folded), list(row.error.inside_out),
+            text("%u", row.error.sharp_edges), list(row.error.opposing), list(row.error.inside_out),
             text("%u", result.report.guarded_patches), text("%.0f", result.report.total_ms)});
   return row;
 }
@@ -68,10 +68,12 @@ void real_table(Page& page, Bounds& bounds) {
   }
   page.paragraph(
       "RMS and greatest distance in thousandths of the diagonal of the network, and the RMS over "
-      "that of stanko. Folded: patches with more than a hundredth of their area facing against the "
-      "model next to them; inside out: more than half.");
+      "that of stanko. Sharp edges: inside patches, between triangles that face against each "
+      "other. "
+      "Opposing: patches with more than a hundredth of their area facing against the model next to "
+      "them, as where they leave out a feature of it; inside out: more than half.");
   page.header({"network", "method", "patches", "free", "RMS", "max", "over stanko", "curve normals",
-               "folded", "inside out", "guarded", "ms"});
+               "sharp edges", "opposing", "inside out", "guarded", "ms"});
   Ratios fair_ratios, iterated_ratios;
   cases.insert(cases.begin(), lily.begin(), lily.end());
   for (const RealCase& c : cases) {

@@ -178,7 +178,8 @@ TEST_CASE("lilium, the method fair, with and without noise") {
     REQUIRE_MESSAGE(clean.status == WSK_OK, clean.report.sentence);
     const accuracy::RealError error = accuracy::real_error(clean, c);
     CHECK(error.rms <= 0.023);
-    CHECK(error.folded.empty());
+    CHECK(error.opposing.empty());
+    CHECK(error.sharp_edges == 0);
     CHECK(accuracy::curve_normal_deviation(clean).mean <= 1.5);
 
     // No ripples along the curves.
