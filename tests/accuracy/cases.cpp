@@ -95,8 +95,8 @@ std::vector<Case> cases_unseen() {
                 hump = hump_surface(0.5, 0.45);
   // The catenoid of waist .8 has radius 1 at z = .8 log 2, with normals of slope 3/4.
   const double height = 0.8 * std::log(2.0), tilt = -36.869897645844021;
-  // A weakness: in the octants of a flat ellipsoid the variation of H that the network leaves open
-  // is larger than any regulariser that serves the other shapes would have it.
+  // A weakness: on the octants of a flat ellipsoid `fair` is worse than the paper's method. Why is
+  // not known; the bound keeps it from growing.
   Case flat = ellipsoid_case("ellipsoid 1, 1, .5", 1.0, 1.0, 0.5);
   flat.over_stanko = 2.6;
   return {
