@@ -110,6 +110,48 @@ Surface saddle_surface() {
   return s;
 }
 
+// A point on the z axis is taken to the side of positive x.
+static Point radial_or_x(const Point& p) {
+  return p[0] == 0.0 && p[1] == 0.0 ? Point{1.0, 0.0, 0.0} : radial(p);
+}
+
+Surface catenoid_surface(double waist) {
+  Surface s;
+  const auto radius = [=](double z) { return waist * std::cosh(z / waist); };
+  s.value = [=](const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1]) - radius(p[2]); };
+  s.gradient = [=](const Point& p) {
+    return radial_or_x(p) - Point{0.0, 0.0, std::sinh(p[2] / waist)};
+  };
+  s.onto = [=](const Point& p) { return radius(p[2]) * radial_or_x(p) + Point{0.0, 0.0, p[2]}; };
+  return s;
+}
+
+Surface cone_surface(double radius, double slope) {
+  Surface s;
+  const double scale = 1.0 / std::sqrt(1.0 + slope * slope);
+  s.value = [=](const Point& p) {
+    return scale * (std::sqrt(p[0] * p[0] + p[1] * p[1]) - radius - slope * p[2]);
+  };
+  s.gradient = [=](const Point& p) { return scale * (radial_or_x(p) - Point{0.0, 0.0, slope}); };
+  s.onto = [=](const Point& p) {
+    return (radius + slope * p[2]) * radial_or_x(p) + Point{0.0, 0.0, p[2]};
+  };
+  s.is_distance = true;  // as long as the apex is far
+  return s;
+}
+
+Surface hump_surface(double height, double deviation) {
+  Surface s;
+  const double k = 1.0 / (deviation * deviation);
+  const auto z = [=](const Point& p) {
+    return height * std::exp(-0.5 * k * (p[0] * p[0] + p[1] * p[1]));
+  };
+  s.value = [=](const Point& p) { return p[2] - z(p); };
+  s.gradient = [=](const Point& p) { return Point{k * p[0] * z(p), k * p[1] * z(p), 1.0}; };
+  s.onto = [=](const Point& p) { return Point{p[0], p[1], z(p)}; };
+  return s;
+}
+
 Point normal_at(const Surface& surface, const Point& point) {
   return unit(surface.gradient(point));
 }
@@ -358,24 +400,64 @@ Network torus(double major_radius, double minor_radius, const std::vector<double
   return builder.take();
 }
 
-Network saddle(double spacing) {
-  const Surface surface = saddle_surface();
-  Builder builder(surface);
-  uint32_t node[3][3];
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) node[i][j] = builder.add(surface.onto({i - 1.0, j - 1.0, 0.0}));
+Network sphere_sections(const Point& offsets, double spacing) {
+  Builder builder(sphere_surface(1.0));
+  // node[k][side]: on the circles of the two axes other than k.
+  uint32_t node[3][2];
+  for (size_t k = 0; k < 3; ++k) {
+    Point p = offsets;
+    p[k] = 0.0;
+    const double rest = std::sqrt(1.0 - dot(p, p));
+    for (size_t side = 0; side < 2; ++side) {
+      p[k] = side == 0 ? rest : -rest;
+      node[k][side] = builder.add(p);
+    }
   }
-  for (int i = 0; i < 3; ++i) {
-    const Path path = [=](double y) { return surface.onto({i - 1.0, y, 0.0}); };
-    builder.begin_curve(node[i][0], i != 1);
-    for (int j = 1; j < 3; ++j) builder.go_to(node[i][j], path, j - 2.0, j - 1.0, spacing);
-  }
-  for (int j = 0; j < 3; ++j) {
-    const Path path = [=](double x) { return surface.onto({x, j - 1.0, 0.0}); };
-    builder.begin_curve(node[0][j], j != 1);
-    for (int i = 1; i < 3; ++i) builder.go_to(node[i][j], path, i - 2.0, i - 1.0, spacing);
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const double radius = std::sqrt(1.0 - offsets[k] * offsets[k]);
+    const Path path = [=](double t) {
+      Point p;
+      p[k] = offsets[k];
+      p[i] = radius * cos_sin(t)[0];
+      p[j] = radius * cos_sin(t)[1];
+      return p;
+    };
+    // Towards +i lies the crossing with the circle of axis j, and so on round.
+    const double turn_i = std::asin(offsets[i] / radius) * (180.0 / k_pi);
+    const double turn_j = std::asin(offsets[j] / radius) * (180.0 / k_pi);
+    builder.circle({node[i][0], node[j][0], node[i][1], node[j][1]},
+                   {turn_j, 90.0 - turn_i, 180.0 - turn_j, 270.0 + turn_i}, path, spacing);
   }
   return builder.take();
+}
+
+Network graph(const Surface& surface, const std::vector<double>& xs, const std::vector<double>& ys,
+              double spacing) {
+  Builder builder(surface);
+  std::vector<std::vector<uint32_t>> node(xs.size());
+  for (size_t i = 0; i < xs.size(); ++i) {
+    for (double y : ys) node[i].push_back(builder.add(surface.onto({xs[i], y, 0.0})));
+  }
+  for (size_t i = 0; i < xs.size(); ++i) {
+    const Path path = [&](double y) { return surface.onto({xs[i], y, 0.0}); };
+    builder.begin_curve(node[i][0], i == 0 || i + 1 == xs.size());
+    for (size_t j = 1; j < ys.size(); ++j) {
+      builder.go_to(node[i][j], path, ys[j - 1], ys[j], spacing);
+    }
+  }
+  for (size_t j = 0; j < ys.size(); ++j) {
+    const Path path = [&](double x) { return surface.onto({x, ys[j], 0.0}); };
+    builder.begin_curve(node[0][j], j == 0 || j + 1 == ys.size());
+    for (size_t i = 1; i < xs.size(); ++i) {
+      builder.go_to(node[i][j], path, xs[i - 1], xs[i], spacing);
+    }
+  }
+  return builder.take();
+}
+
+Network saddle(double spacing) {
+  return graph(saddle_surface(), {-1.0, 0.0, 1.0}, {-1.0, 0.0, 1.0}, spacing);
 }
 
 static Point on_cylinder(double radius, double degrees, double z) {
@@ -383,23 +465,28 @@ static Point on_cylinder(double radius, double degrees, double z) {
   return {radius * c, radius * s, z};
 }
 
-Network cylinder_band(double radius, double half_height, unsigned lines, double spacing) {
-  Builder builder(cylinder_surface(radius));
+Network revolution_band(const Surface& surface, double low, double high, unsigned lines,
+                        double spacing) {
+  Builder builder(surface);
   std::vector<double> angles;
   for (unsigned i = 0; i < lines; ++i) angles.push_back(360.0 * i / lines);
   std::vector<uint32_t> ends[2];
   for (int top = 0; top < 2; ++top) {
-    const double z = top == 0 ? -half_height : half_height;
-    for (double u : angles) ends[top].push_back(builder.add(on_cylinder(radius, u, z)));
-    const Path path = [=](double u) { return on_cylinder(radius, u, z); };
+    const double z = top == 0 ? low : high;
+    const Path path = [&](double u) { return surface.onto(on_cylinder(1.0, u, z)); };
+    for (double u : angles) ends[top].push_back(builder.add(path(u)));
     builder.circle(ends[top], angles, path, spacing, true);
   }
   for (unsigned i = 0; i < lines; ++i) {
-    const Path path = [=](double z) { return on_cylinder(radius, angles[i], z); };
+    const Path path = [&](double z) { return surface.onto(on_cylinder(1.0, angles[i], z)); };
     builder.begin_curve(ends[0][i]);
-    builder.go_to(ends[1][i], path, -half_height, half_height, spacing);
+    builder.go_to(ends[1][i], path, low, high, spacing);
   }
   return builder.take();
+}
+
+Network cylinder_band(double radius, double half_height, unsigned lines, double spacing) {
+  return revolution_band(cylinder_surface(radius), -half_height, half_height, lines, spacing);
 }
 
 // Uniform in [-1, 1): the high bits of a linear congruential generator (Knuth's MMIX constants).
@@ -408,14 +495,15 @@ static double next_random(uint64_t& state) {
   return static_cast<double>(state >> 11) * 0x1p-52 - 1.0;
 }
 
-BandMesh band_mesh(double radius, double half_height, double spacing, double tilt, double jitter) {
+BandMesh band_mesh(double radius, double half_height, double spacing, double tilt, double jitter,
+                   unsigned seed) {
   const auto around =
       static_cast<uint32_t>(std::max(3l, std::lround(2.0 * k_pi * radius / spacing)));
   const double row_height = spacing * std::sqrt(0.75);
   const auto rows = static_cast<uint32_t>(std::max(1l, std::lround(2 * half_height / row_height)));
   const auto [ct, st] = cos_sin(tilt);
   BandMesh mesh;
-  uint64_t state = 1;
+  uint64_t state = seed;
   for (uint32_t row = 0; row <= rows; ++row) {
     const bool end = row == 0 || row == rows;
     for (uint32_t i = 0; i < around; ++i) {

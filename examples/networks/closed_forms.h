@@ -28,7 +28,10 @@ Surface torus_surface(double major_radius, double minor_radius);  // around the 
 Surface cylinder_surface(double radius);                          // around the z axis, endless
 Surface ellipsoid_surface(double a, double b, double c);
 Surface bumpy_surface();
-Surface saddle_surface();  // endless
+Surface saddle_surface();                               // endless
+Surface catenoid_surface(double waist);                 // around the z axis, endless
+Surface cone_surface(double radius, double slope);      // radius + slope z around the z axis
+Surface hump_surface(double height, double deviation);  // a Gaussian over the plane, normals up
 
 // The outer unit normal at a point of the surface.
 Point normal_at(const Surface& surface, const Point& point);
@@ -56,15 +59,28 @@ Network ellipsoid(double a, double b, double c, double spacing);
 // The sections with the coordinate planes.
 Network bumpy_sphere(double spacing);
 
-// Over [-1, 1]^2: the lines x = 0 and y = 0, and four open boundary curves that meet in corners.
+// Unit sphere, the circles x, y, z = offset; offsets of which any two lie within the sphere.
+Network sphere_sections(const Point& offsets, double spacing);
+
+// A graph over the plane: its curves above the given x and y (at least two of each, increasing).
+// The first and the last are open boundary curves that meet in corners.
+Network graph(const Surface& surface, const std::vector<double>& xs, const std::vector<double>& ys,
+              double spacing);
+
+// Over [-1, 1]^2, with the lines x = 0 and y = 0.
 Network saddle(double spacing);
+
+// A surface of revolution between two boundary circles at the heights low and high, cut by `lines`
+// meridians.
+Network revolution_band(const Surface& surface, double low, double high, unsigned lines,
+                        double spacing);
 
 // Two boundary circles z = -half_height and z = half_height, joined by `lines` straight lines.
 Network cylinder_band(double radius, double half_height, unsigned lines, double spacing);
 
 // The same band as a triangle mesh whose two circles are constrained: rows of staggered vertices,
-// moved at random by up to jitter * spacing. `tilt` turns the normals of the circles from radial
-// towards the nearer end (positive: a barrel) or the middle (negative: a bottleneck).
+// moved at random (by `seed`) by up to jitter * spacing. `tilt` turns the normals of the circles
+// from radial towards the nearer end (positive: a barrel) or the middle (negative: a bottleneck).
 struct BandMesh {
   std::vector<Point> positions;
   std::vector<Point> normals;  // at constrained vertices tilted, elsewhere radial
@@ -72,6 +88,6 @@ struct BandMesh {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 BandMesh band_mesh(double radius, double half_height, double spacing, double tilt,
-                   double jitter = 0.12);
+                   double jitter = 0.12, unsigned seed = 1);
 
 }  // namespace networks

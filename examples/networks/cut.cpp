@@ -46,6 +46,33 @@ Mesh read_obj(const std::string& path) {
   return mesh;
 }
 
+Mesh read_off(const std::string& path) {
+  std::ifstream file(path);
+  file.imbue(std::locale::classic());
+  std::string magic;
+  size_t vertices = 0, faces = 0, edges = 0;
+  if (!(file >> magic >> vertices >> faces >> edges) || magic != "OFF") {
+    throw std::runtime_error(path + ": no OFF file");
+  }
+  Mesh mesh;
+  mesh.positions.resize(vertices);
+  for (Point& p : mesh.positions) file >> p[0] >> p[1] >> p[2];
+  for (size_t f = 0; f < faces && file; ++f) {
+    size_t count = 0;
+    file >> count;
+    std::vector<uint32_t> corners(count < 1000 ? count : 0);
+    for (uint32_t& corner : corners) {
+      file >> corner;
+      if (corner >= vertices) throw std::runtime_error(path + ": a face names no vertex");
+    }
+    for (size_t i = 2; i < corners.size(); ++i) {
+      mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    }
+  }
+  if (!file) throw std::runtime_error(path + ": ends early");
+  return mesh;
+}
+
 std::vector<Point> vertex_normals(const Mesh& mesh) {
   std::vector<Point> normals(mesh.positions.size(), Point{0.0, 0.0, 0.0});
   for (const auto& t : mesh.triangles) {

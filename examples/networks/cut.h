@@ -28,6 +28,9 @@ struct Plane {
 // `v` and `f` lines of an OBJ file; polygons become fans. Throws std::runtime_error.
 Mesh read_obj(const std::string& path);
 
+// An OFF file without comments; polygons become fans. Throws std::runtime_error.
+Mesh read_off(const std::string& path);
+
 // Angle-weighted (Thuermer, Wuethrich, "Computing vertex normals from polygonal facets", 1998).
 std::vector<Point> vertex_normals(const Mesh& mesh);
 

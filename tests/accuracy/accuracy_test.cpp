@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "accuracy/measure.h"
+#include "accuracy/cases.h"
+#include "accuracy/mesh_distance.h"
+#include "accuracy/noise.h"
 
 namespace {
 
@@ -99,6 +101,48 @@ TEST_CASE("sphere zone given as the mesh of a cylinder") {
   CHECK(print_row("sphere zone .6", "stanko", result, sphere).rms <= 0.035);
 }
 
+// The method fair: its bounds, on networks at half the size of the tables (twice the spacing).
+TEST_CASE("fair reaches its bounds") {
+  for (const accuracy::Case& c : accuracy::cases_with_bounds()) {
+    CAPTURE(c.name);
+    const double spacing = c.network != nullptr ? 2.0 * c.spacing : c.spacing;
+    const accuracy::Result result = accuracy::build(c, WSK_METHOD_FAIR, spacing, spacing);
+    REQUIRE_MESSAGE(result.status == WSK_OK, result.report.sentence);
+    const double rms = print_row(c.name.c_str(), "fair", result, c.truth).rms;
+    CHECK(rms <= c.must);
+    CHECK(accuracy::curve_normal_deviation(result).max <= 1.2);
+    CHECK(accuracy::normal_deviation(result, c.truth).mean <= 1.0);
+    CHECK(result.report.guarded_patches == 0);
+  }
+}
+
+TEST_CASE("fair on shapes that its constants were not chosen with, off the axes") {
+  for (const accuracy::Case& c : accuracy::cases_unseen()) {
+    CAPTURE(c.name);
+    accuracy::Case coarse = c;
+    if (c.network != nullptr) coarse.spacing *= 2.0;
+    const accuracy::Result fair = accuracy::build(coarse, WSK_METHOD_FAIR, 1);
+    REQUIRE_MESSAGE(fair.status == WSK_OK, fair.report.sentence);
+    const double rms = print_row(c.name.c_str(), "fair", fair, c.truth).rms;
+    CHECK(rms < 0.009);
+    CHECK(accuracy::curve_normal_deviation(fair).max <=
+          std::fmax(1.2, 0.25 + accuracy::unavoidable_deviation(fair, c.truth)));
+    CHECK(fair.report.guarded_patches == 0);
+  }
+}
+
+TEST_CASE("fair under refinement: never more than a fifth worse, and towards one surface") {
+  const accuracy::Case c = accuracy::cases_with_bounds()[4];  // the bumpy sphere
+  double last = 1e300;
+  for (double spacing : {0.144, 0.072, 0.036}) {
+    const accuracy::Result result = accuracy::build(c, WSK_METHOD_FAIR, 0.036, spacing);
+    REQUIRE(result.status == WSK_OK);
+    const double rms = accuracy::distance_error(result, c.truth).rms;
+    CHECK(rms <= 1.2 * last);
+    last = rms;
+  }
+}
+
 namespace {
 
 double middle_radius(double tilt) {
@@ -160,4 +204,67 @@ TEST_CASE("the reported mean curvature is that of the shape") {
   CHECK(worst < 0.05);
   CHECK(lowest < -0.08);
   CHECK(highest > 0.08);
+}
+
+// ---- The measuring itself
+
+TEST_CASE("distance to a mesh: the tree finds what trying every triangle finds") {
+  const networks::BandMesh band = networks::band_mesh(1.0, 0.6, 0.15, 0.0);
+  networks::Mesh mesh;
+  mesh.positions = band.positions;
+  mesh.triangles = band.triangles;
+  const accuracy::MeshDistance tree(mesh);
+  for (int i = 0; i < 500; ++i) {
+    const networks::Point p = {1.6 * std::sin(7.1 * i), 1.6 * std::sin(3.3 * i + 1.0),
+                               1.1 * std::sin(5.7 * i + 2.0)};
+    double best = 1e300;
+    for (const auto& t : mesh.triangles) {
+      best =
+          std::fmin(best, accuracy::distance_to_triangle(
+                              p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
+    }
+    REQUIRE(tree.nearest(p).distance == best);
+  }
+}
+
+TEST_CASE("distance to a triangle: above its face, an edge, a corner") {
+  const networks::Point a = {0, 0, 0}, b = {2, 0, 0}, c = {0, 2, 0};
+  CHECK(accuracy::distance_to_triangle({0.5, 0.5, 3.0}, a, b, c) == doctest::Approx(3.0));
+  CHECK(accuracy::distance_to_triangle({1.0, -4.0, 3.0}, a, b, c) == doctest::Approx(5.0));
+  CHECK(accuracy::distance_to_triangle({5.0, 0.0, -4.0}, a, b, c) == doctest::Approx(5.0));
+}
+
+TEST_CASE("noise has the deviation that it is asked for") {
+  const networks::Network clean = networks::sphere_great_circles(62);
+  const networks::Network noisy = accuracy::with_noise(clean, 0.01, 5.0);
+  double square = 0.0, angle_square = 0.0;
+  for (size_t i = 0; i < clean.positions.size(); ++i) {
+    const auto distance = networks::distance(clean.positions[i], noisy.positions[i]);
+    square += distance * distance;
+    const double tangent = networks::length(networks::cross(clean.normals[i], noisy.normals[i])) /
+                           networks::dot(clean.normals[i], noisy.normals[i]);
+    angle_square += tangent * tangent;
+  }
+  const double count = static_cast<double>(clean.positions.size());
+  CHECK(std::sqrt(square / (3.0 * count)) == doctest::Approx(0.01).epsilon(0.05));
+  CHECK(std::sqrt(angle_square / (2.0 * count)) * 180.0 / M_PI ==
+        doctest::Approx(5.0).epsilon(0.05));
+}
+
+TEST_CASE("ripples: of the curvature, whatever the size") {
+  // On a flat square with H = x the energy is the area squared; the border is left out.
+  accuracy::Result sheet;
+  const uint32_t n = 40;
+  for (uint32_t i = 0; i <= n; ++i) {
+    for (uint32_t j = 0; j <= n; ++j) {
+      sheet.positions.push_back({3.0 * i / n, 3.0 * j / n, 0.0});
+      sheet.mean_curvature.push_back(3.0 * i / n);
+      if (i == n || j == n) continue;
+      const uint32_t v = i * (n + 1) + j;
+      for (uint32_t k : {v, v + n + 1, v + n + 2, v, v + n + 2, v + 1})
+        sheet.triangles.push_back(k);
+    }
+  }
+  const double inner = 9.0 * (n - 2.0) * (n - 2.0) / (n * n);
+  CHECK(accuracy::ripple_energy(sheet) == doctest::Approx(9.0 * inner));
 }

@@ -2,15 +2,29 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace accuracy {
+
+using namespace networks;  // its operators on points are not found otherwise
+
+Mesh mesh_of(const Result& result) {
+  Mesh mesh;
+  mesh.positions = result.positions;
+  for (size_t t = 0; t < result.triangles.size(); t += 3) {
+    mesh.triangles.push_back(
+        {result.triangles[t], result.triangles[t + 1], result.triangles[t + 2]});
+  }
+  return mesh;
+}
 
 static double milliseconds(void*) {
   using namespace std::chrono;
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
 
-static wsk_options options_for(wsk_method method, double spacing) {
+wsk_options options_for(wsk_method method, double spacing) {
   wsk_options options;
   wsk_options_init(&options, sizeof options);
   options.method = method;
@@ -19,8 +33,8 @@ static wsk_options options_for(wsk_method method, double spacing) {
   return options;
 }
 
-static std::vector<networks::Point> points(const double* data, size_t count) {
-  std::vector<networks::Point> result(count);
+static std::vector<Point> points(const double* data, size_t count) {
+  std::vector<Point> result(count);
   for (size_t i = 0; i < count; ++i) result[i] = {data[3 * i], data[3 * i + 1], data[3 * i + 2]};
   return result;
 }
@@ -39,8 +53,8 @@ static void take(wsk_surface* surface, Result* result) {
   wsk_surface_free(surface);
 }
 
-Result build(const networks::Network& network, wsk_method method, double spacing) {
-  std::vector<std::vector<networks::Point>> positions, normals;
+Result build(const Network& network, const wsk_options& options) {
+  std::vector<std::vector<Point>> positions, normals;
   for (const auto& curve : network.curves) {
     positions.emplace_back();
     normals.emplace_back();
@@ -52,16 +66,15 @@ Result build(const networks::Network& network, wsk_method method, double spacing
   std::vector<wsk_curve> curves;
   for (size_t c = 0; c < network.curves.size(); ++c) {
     const auto& curve = network.curves[c];
-    wsk_curve one = {};
-    one.sample_count = curve.vertices.size();
-    one.positions = positions[c][0].data();
-    one.normals = normals[c][0].data();
-    one.nodes = curve.vertices.data();
-    one.closed = curve.closed;
-    one.boundary = curve.boundary;
-    curves.push_back(one);
+    wsk_curve given = {};
+    given.sample_count = curve.vertices.size();
+    given.positions = positions[c][0].data();
+    given.normals = normals[c][0].data();
+    given.nodes = curve.vertices.data();
+    given.closed = curve.closed;
+    given.boundary = curve.boundary;
+    curves.push_back(given);
   }
-  const wsk_options options = options_for(method, spacing);
   Result result;
   wsk_surface* surface = nullptr;
   wsk_report_init(&result.report, sizeof result.report);
@@ -70,7 +83,11 @@ Result build(const networks::Network& network, wsk_method method, double spacing
   return result;
 }
 
-Result smooth(const networks::BandMesh& band, wsk_method method) {
+Result build(const Network& network, wsk_method method, double spacing) {
+  return build(network, options_for(method, spacing));
+}
+
+Result smooth(const BandMesh& band, wsk_method method) {
   const wsk_mesh mesh = {band.positions.size(),
                          band.positions[0].data(),
                          0,
@@ -88,13 +105,13 @@ Result smooth(const networks::BandMesh& band, wsk_method method) {
   return result;
 }
 
-Error distance_error(const Result& result, const networks::Surface& surface) {
+Error distance_error(const Result& result, const Surface& surface) {
   Error error;
   double sum = 0.0;
   size_t count = 0;
   for (size_t v = 0; v < result.positions.size(); ++v) {
     if (!result.is_free(v)) continue;
-    const double distance = std::fabs(networks::signed_distance(surface, result.positions[v]));
+    const double distance = std::fabs(signed_distance(surface, result.positions[v]));
     sum += distance * distance;
     error.max = std::fmax(error.max, distance);
     ++count;
@@ -103,21 +120,83 @@ Error distance_error(const Result& result, const networks::Surface& surface) {
   return error;
 }
 
-Deviation curve_normal_deviation(const Result& result) {
+static double angle_between(const Point& a, const Point& b) {
+  return std::atan2(length(cross(a, b)), dot(a, b)) * 180.0 / 3.14159265358979323846;
+}
+
+// Over the vertices that are free, or those that are not, against the normals that `wanted` gives.
+template <typename Wanted>
+static Deviation deviation_of(const Result& result, bool free, const Wanted& wanted) {
   Deviation deviation;
   size_t count = 0;
   for (size_t v = 0; v < result.normals.size(); ++v) {
-    if (result.is_free(v)) continue;
-    const networks::Point& a = result.normals[v];
-    const networks::Point& b = result.constraint_normals[v];
-    const double angle =
-        std::atan2(networks::length(networks::cross(a, b)), networks::dot(a, b)) * 180.0 / M_PI;
+    if (result.is_free(v) != free) continue;
+    const double angle = angle_between(result.normals[v], wanted(v));
     deviation.mean += angle;
     deviation.max = std::fmax(deviation.max, angle);
     ++count;
   }
   if (count > 0) deviation.mean /= static_cast<double>(count);
   return deviation;
+}
+
+Deviation curve_normal_deviation(const Result& result) {
+  return deviation_of(result, false, [&](size_t v) { return result.constraint_normals[v]; });
+}
+
+Deviation normal_deviation(const Result& result, const Surface& surface) {
+  return deviation_of(result, true, [&](size_t v) {
+    return normal_at(surface, closest_point(surface, result.positions[v]));
+  });
+}
+
+double unavoidable_deviation(const Result& result, const Surface& surface) {
+  Mesh mesh = mesh_of(result);
+  for (Point& p : mesh.positions) p = closest_point(surface, p);
+  const std::vector<Point> normals = vertex_normals(mesh);
+  double greatest = 0.0;
+  for (size_t v = 0; v < normals.size(); ++v) {
+    if (result.is_free(v)) continue;
+    greatest = std::fmax(greatest, angle_between(normals[v], result.constraint_normals[v]));
+  }
+  return greatest;
+}
+
+// Vertices at which edges with a single triangle end.
+static std::vector<bool> on_border(const Result& result) {
+  std::map<std::pair<uint32_t, uint32_t>, int> uses;
+  for (size_t t = 0; t < result.triangles.size(); t += 3) {
+    for (size_t i = 0; i < 3; ++i) {
+      ++uses[std::minmax(result.triangles[t + i], result.triangles[t + (i + 1) % 3])];
+    }
+  }
+  std::vector<bool> border(result.positions.size(), false);
+  for (const auto& [edge, count] : uses) {
+    if (count == 1) border[edge.first] = border[edge.second] = true;
+  }
+  return border;
+}
+
+double ripple_energy(const Result& result) {
+  const std::vector<bool> border = on_border(result);
+  double area = 0.0, energy = 0.0;
+  for (size_t t = 0; t < result.triangles.size(); t += 3) {
+    const uint32_t* v = &result.triangles[t];
+    const Point& a = result.positions[v[0]];
+    const Point normal = cross(result.positions[v[1]] - a, result.positions[v[2]] - a);
+    const double twice_area = length(normal);
+    area += 0.5 * twice_area;
+    if (border[v[0]] || border[v[1]] || border[v[2]]) continue;
+    // The gradient, turned by a right angle and times twice the area, is the sum of H times the
+    // opposite edge.
+    Point turned = {0.0, 0.0, 0.0};
+    for (size_t i = 0; i < 3; ++i) {
+      const Point edge = result.positions[v[(i + 2) % 3]] - result.positions[v[(i + 1) % 3]];
+      turned = turned + result.mean_curvature[v[i]] * edge;
+    }
+    energy += 0.5 * dot(turned, turned) / twice_area;
+  }
+  return area * energy;
 }
 
 }  // namespace accuracy

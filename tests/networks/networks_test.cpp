@@ -86,6 +86,13 @@ std::vector<Expected> expected_networks() {
       {"bumpy", bumpy_sphere(.0253), bumpy_surface(), 742, 3, 0, 6, 8, 2, .0253},
       {"saddle", saddle(.02), saddle_surface(), 681, 6, 4, 9, 4, 1, .02},
       {"cylinder", cylinder_band(1, .6, 4, .06), cylinder_surface(1), 284, 6, 2, 8, 4, 0, .06},
+      {"sections", sphere_sections({.2, -.1, .3}, .03), sphere_surface(1), 0, 3, 0, 6, 8, 2, .03},
+      {"catenoid", revolution_band(catenoid_surface(.8), -.5, .7, 5, .03), catenoid_surface(.8), 0,
+       7, 2, 10, 5, 0, .03},
+      {"cone", revolution_band(cone_surface(1, -.5), -.6, .7, 4, .03), cone_surface(1, -.5), 0, 6,
+       2, 8, 4, 0, .03},
+      {"hump", graph(hump_surface(.5, .45), {-1, .1, 1}, {-1, -.15, 1}, .03), hump_surface(.5, .45),
+       0, 6, 4, 9, 4, 1, .03},
   };
 }
 

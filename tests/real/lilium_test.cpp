@@ -4,83 +4,16 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
-#include "accuracy/measure.h"
+#include "accuracy/noise.h"
+#include "accuracy/real.h"
 #include "curves/curve.h"
-#include "io.h"
 #include "network/nodes.h"
 #include "support/context.h"
 
 namespace {
 
 using namespace networks;  // its operators on points are not found otherwise
-
-std::string data_file(const std::string& name) {
-  const char* folder = std::getenv("WIRESKIN_TEST_DATA");
-  const std::string root = folder != nullptr && *folder != 0 ? folder : WIRESKIN_TEST_DATA;
-  const std::string path = root + "/stanko-blendernet/" + name;
-  return !root.empty() && std::filesystem::exists(path) ? path : "";
-}
-
-struct TriangleMesh {
-  std::vector<Point> positions;
-  std::vector<std::array<uint32_t, 3>> triangles;
-};
-
-TriangleMesh read_off(const std::string& path) {
-  std::ifstream in(path);
-  std::string magic;
-  size_t vertices = 0, faces = 0, edges = 0;
-  in >> magic >> vertices >> faces >> edges;
-  TriangleMesh mesh;
-  mesh.positions.resize(vertices);
-  mesh.triangles.resize(faces);
-  for (Point& p : mesh.positions) in >> p[0] >> p[1] >> p[2];
-  for (auto& t : mesh.triangles) {
-    int corners = 0;
-    in >> corners >> t[0] >> t[1] >> t[2];
-    REQUIRE(corners == 3);
-  }
-  REQUIRE(in.good());
-  return mesh;
-}
-
-double distance_to_segment(const Point& p, const Point& a, const Point& b) {
-  const Point d = b - a;
-  const double t = std::fmin(1.0, std::fmax(0.0, dot(p - a, d) / dot(d, d)));
-  return distance(p, a + t * d);
-}
-
-double distance_to_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
-  const Point n = networks::unit(cross(b - a, c - a));
-  const double height = dot(p - a, n);
-  const Point q = p - height * n;
-  if (dot(cross(b - a, q - a), n) >= 0 && dot(cross(c - b, q - b), n) >= 0 &&
-      dot(cross(a - c, q - c), n) >= 0) {
-    return std::fabs(height);
-  }
-  return std::fmin(distance_to_segment(p, a, b),
-                   std::fmin(distance_to_segment(p, b, c), distance_to_segment(p, c, a)));
-}
-
-double rms_to_mesh(const accuracy::Result& result, const TriangleMesh& mesh, const Point& shift) {
-  double sum = 0.0;
-  size_t count = 0;
-  for (size_t v = 0; v < result.positions.size(); ++v) {
-    if (!result.is_free(v)) continue;
-    double best = 1e300;
-    for (const auto& t : mesh.triangles) {
-      best = std::fmin(best, distance_to_triangle(result.positions[v] + shift, mesh.positions[t[0]],
-                                                  mesh.positions[t[1]], mesh.positions[t[2]]));
-    }
-    sum += best * best;
-    ++count;
-  }
-  return std::sqrt(sum / static_cast<double>(count));
-}
 
 wireskin::Vec3 vec(const Point& p) {
   return {p[0], p[1], p[2]};
@@ -178,12 +111,13 @@ double greatest_curvature(const wireskin::curves::Curve& curve, double s, double
 }  // namespace
 
 TEST_CASE("lilium, measured curves and normals") {
-  const std::string path = data_file("lilium.net");
-  if (path.empty()) {
-    std::printf("skipped: lilium.net is not in WIRESKIN_TEST_DATA\n");
+  const std::vector<accuracy::RealCase> cases = accuracy::lilium();
+  if (cases.empty()) {
+    std::printf("skipped: lilium is not in WIRESKIN_TEST_DATA\n");
     return;
   }
-  const networks::Network network = networks::read_network(path);
+  const accuracy::RealCase& c = cases[0];
+  const networks::Network& network = c.network;
   const double diagonal = 2.86;
   const accuracy::Result result = accuracy::build(network, WSK_METHOD_STANKO, 0.035);
   REQUIRE_MESSAGE(result.status == WSK_OK, result.report.sentence);
@@ -215,17 +149,12 @@ TEST_CASE("lilium, measured curves and normals") {
   // with the greatest curvature within an edge's length (and rounding).
   const double edge = 0.0365;  // the longest after dividing each segment evenly
   double off_mesh = 0.0, worst_ratio = 0.0;
-  for (size_t c = 0; c < fitted.curves.size(); ++c) {
-    const auto curve = fitted.curves[c];
+  const accuracy::MeshDistance distance(accuracy::mesh_of(result));
+  for (size_t i = 0; i < fitted.curves.size(); ++i) {
+    const auto curve = fitted.curves[i];
     for (size_t k = 0; k < curve.arc.size(); ++k) {
       const wireskin::Vec3& kept = curve.position.value[k];
-      double best = 1e300;
-      for (size_t t = 0; t < result.triangles.size(); t += 3) {
-        best = std::fmin(best, distance_to_triangle({kept.x, kept.y, kept.z},
-                                                    result.positions[result.triangles[t]],
-                                                    result.positions[result.triangles[t + 1]],
-                                                    result.positions[result.triangles[t + 2]]));
-      }
+      const double best = distance.nearest({kept.x, kept.y, kept.z}).distance;
       const double sagitta = edge * edge * greatest_curvature(curve, curve.arc[k], edge) / 8.0;
       off_mesh = std::fmax(off_mesh, best);
       worst_ratio = std::fmax(worst_ratio, best / (sagitta + 1e-12));
@@ -233,8 +162,7 @@ TEST_CASE("lilium, measured curves and normals") {
   }
   CHECK(worst_ratio <= 1.0);
 
-  const TriangleMesh truth = read_off(data_file("lilium.off"));
-  const double rms = rms_to_mesh(result, truth, {-0.1981, -0.2474, 0.1189});
+  const double rms = accuracy::real_error(result, c).rms;
   const accuracy::Deviation deviation = accuracy::curve_normal_deviation(result);
   std::printf(
       "lilium: free %u curve %u rms %.4f, curve normals %.1f/%.1f deg, vertices off the "
@@ -242,4 +170,24 @@ TEST_CASE("lilium, measured curves and normals") {
       result.report.free_vertices, result.report.vertices - result.report.free_vertices, rms,
       deviation.mean, deviation.max, off_spline, off_mesh, worst_ratio);
   CHECK(rms < 0.085);
+}
+
+TEST_CASE("lilium, the method fair, with and without noise") {
+  for (const accuracy::RealCase& c : accuracy::lilium()) {
+    const accuracy::Result clean = accuracy::build(c.network, WSK_METHOD_FAIR, c.spacing);
+    REQUIRE_MESSAGE(clean.status == WSK_OK, clean.report.sentence);
+    const accuracy::RealError error = accuracy::real_error(clean, c);
+    CHECK(error.rms <= 0.023);
+    CHECK(error.opposing.empty());
+    CHECK(error.sharp_edges == 0);
+    CHECK(accuracy::curve_normal_deviation(clean).mean <= 1.5);
+
+    // No ripples along the curves.
+    const double size = accuracy::diagonal(c.network);
+    const accuracy::Result noisy = accuracy::build(
+        accuracy::with_noise(c.network, 0.002 * size, 5.0), WSK_METHOD_FAIR, c.spacing);
+    REQUIRE_MESSAGE(noisy.status == WSK_OK, noisy.report.sentence);
+    CHECK(accuracy::real_error(noisy, c).rms <= 0.025);
+    CHECK(accuracy::ripple_energy(noisy) <= 1.3 * accuracy::ripple_energy(clean));
+  }
 }
