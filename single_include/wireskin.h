@@ -2232,10 +2232,10 @@ struct PatchMesh {
       : triangle(context), patch(context), shape(context), way(context), start(context) {}
 };
 
-/* `least_facing`: a plane is taken only where the cosine between its normal and each normal of the */
-/* border is at least this; -1 takes every plane that shows the border without folds. */
-/* Fails, naming the patch, with patch_several_loops, with patch_without_plane where the border runs */
-/* clockwise, with patch_folded where it crosses itself or encloses nothing in space either. */
+/* `least_facing`: a plane is taken only where the mean cosine between its normal and those of the */
+/* border is at least this; -1 takes every plane that shows the border without folds. Fails, naming */
+/* the patch, with patch_several_loops, with patch_without_plane where the border runs clockwise, */
+/* with patch_folded where it crosses itself or encloses nothing in space either. */
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
                     PatchMesh* mesh);
 
@@ -4653,7 +4653,7 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
 /* ======== begin src/surface.cpp ======== */
 namespace wireskin {
 
-/* A plane that sees part of a border more steeply than this distorts the mesh; the methods that */
+/* A plane that sees a patch more steeply than this on the whole distorts the mesh; the methods that */
 /* leave the planes behind then start better from a triangulation in space. */
 static constexpr double k_least_facing = 0.25;
 
@@ -7201,16 +7201,16 @@ static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& encl
   TRY(fit_plane(vertices, scratch->border.span(), scratch->loop_normal.span(), &plane));
   const size_t n = scratch->border.size();
   TRY(scratch->polygon.resize(n));
-  double facing = 1.0;
+  double facing = 0.0;
+  size_t known = 0;
   for (size_t i = 0; i < n; ++i) {
     scratch->polygon[i] = plane.project(scratch->loop[i]);
-    const double cosine = dot(scratch->loop_normal[i], plane.normal);
-    const bool known = scratch->loop_normal[i] != Vec3{};
-    if (known && cosine < facing) facing = cosine;
+    facing += dot(scratch->loop_normal[i], plane.normal);
+    known += scratch->loop_normal[i] != Vec3{};
   }
   TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
-  if (facing < least_facing) {
-    return fail(Code::patch_without_plane, "the plane of the patch sees its border edge-on");
+  if (known > 0 && facing < least_facing * static_cast<double>(known)) {
+    return fail(Code::patch_without_plane, "the plane of the patch sees too much of it edge-on");
   }
   round_to_grid(scratch->polygon.span(), &spacing);
   TRY(planar::mesh_polygon(scratch->border.context(), scratch->polygon.span(), spacing,

@@ -10,7 +10,7 @@
 
 namespace wireskin {
 
-// A plane that sees part of a border more steeply than this distorts the mesh; the methods that
+// A plane that sees a patch more steeply than this on the whole distorts the mesh; the methods that
 // leave the planes behind then start better from a triangulation in space.
 static constexpr double k_least_facing = 0.25;
 

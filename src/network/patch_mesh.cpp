@@ -110,16 +110,16 @@ static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& encl
   TRY(fit_plane(vertices, scratch->border.span(), scratch->loop_normal.span(), &plane));
   const size_t n = scratch->border.size();
   TRY(scratch->polygon.resize(n));
-  double facing = 1.0;
+  double facing = 0.0;
+  size_t known = 0;
   for (size_t i = 0; i < n; ++i) {
     scratch->polygon[i] = plane.project(scratch->loop[i]);
-    const double cosine = dot(scratch->loop_normal[i], plane.normal);
-    const bool known = scratch->loop_normal[i] != Vec3{};
-    if (known && cosine < facing) facing = cosine;
+    facing += dot(scratch->loop_normal[i], plane.normal);
+    known += scratch->loop_normal[i] != Vec3{};
   }
   TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
-  if (facing < least_facing) {
-    return fail(Code::patch_without_plane, "the plane of the patch sees its border edge-on");
+  if (known > 0 && facing < least_facing * static_cast<double>(known)) {
+    return fail(Code::patch_without_plane, "the plane of the patch sees too much of it edge-on");
   }
   round_to_grid(scratch->polygon.span(), &spacing);
   TRY(planar::mesh_polygon(scratch->border.context(), scratch->polygon.span(), spacing,

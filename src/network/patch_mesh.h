@@ -32,10 +32,10 @@ struct PatchMesh {
       : triangle(context), patch(context), shape(context), way(context), start(context) {}
 };
 
-// `least_facing`: a plane is taken only where the cosine between its normal and each normal of the
-// border is at least this; -1 takes every plane that shows the border without folds.
-// Fails, naming the patch, with patch_several_loops, with patch_without_plane where the border runs
-// clockwise, with patch_folded where it crosses itself or encloses nothing in space either.
+// `least_facing`: a plane is taken only where the mean cosine between its normal and those of the
+// border is at least this; -1 takes every plane that shows the border without folds. Fails, naming
+// the patch, with patch_several_loops, with patch_without_plane where the border runs clockwise,
+// with patch_folded where it crosses itself or encloses nothing in space either.
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
                     PatchMesh* mesh);
 
