@@ -1,0 +1,78 @@
+#include "surface/constraints.h"
+
+namespace wireskin {
+
+// Half the length of the curve edges at each vertex: how much of its curve a vertex stands for.
+static Status curve_shares(const Surface& surface, Array<double>* share) {
+  TRY(share->assign(surface.position.size(), 0.0));
+  for (size_t e = 0; e < surface.curve_edge.size(); e += 2) {
+    const uint32_t a = surface.curve_edge[e], b = surface.curve_edge[e + 1];
+    const double half = 0.5 * length(surface.position[b] - surface.position[a]);
+    (*share)[a] += half;
+    (*share)[b] += half;
+  }
+  return {};
+}
+
+Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surface& surface,
+                        Constraints* constraints) {
+  const size_t n = surface.position.size();
+  TRY(constraints->on_curve.resize(n));
+  TRY(constraints->held.resize(n));
+  bool any = false;
+  for (double cutoff : set.soft) any = any || cutoff > 0.0;
+  for (size_t v = 0; v < n; ++v) {
+    constraints->on_curve[v] = constraints->held[v] = v < curve_vertices;
+  }
+  if (!any) return {};
+  TRY(curve_shares(surface, &constraints->share));
+  TRY(constraints->cutoff.assign(n, -1.0));
+  for (size_t e = 0; e < surface.curve_edge.size(); ++e) {
+    double& cutoff = constraints->cutoff[surface.curve_edge[e]];
+    const uint32_t curve = surface.curve_edge_curve[e / 2];
+    const bool sharp = !set.sharp.empty() && set.sharp[curve];  // these hold in any case
+    const double own = sharp ? 0.0 : set.soft[curve];
+    if (cutoff < 0.0 || own < cutoff) cutoff = own;
+  }
+  for (size_t v = 0; v < n; ++v) {
+    if (constraints->cutoff[v] < 0.0) constraints->cutoff[v] = 0.0;
+    if (constraints->cutoff[v] > 0.0) constraints->held[v] = 0;
+  }
+  return {};
+}
+
+Status constrain_vertices(const TriangleSet& set, Constraints* constraints) {
+  const size_t n = set.position.size();
+  const bool soft = set.soft > 0.0;
+  TRY(constraints->on_curve.copy(set.constrained));
+  TRY(constraints->held.assign(n, 0));
+  for (size_t v = 0; v < n; ++v) constraints->held[v] = set.constrained[v] != 0 && !soft;
+  if (!soft) return {};
+  Context& context = constraints->share.context();
+  Array<double> all(context);
+  Array<uint32_t> count(context);
+  TRY(constraints->cutoff.assign(n, 0.0));
+  TRY(constraints->share.assign(n, 0.0));
+  TRY(all.assign(n, 0.0));
+  TRY(count.assign(n, 0));
+  for (uint32_t h = 0; h < set.triangle.size(); ++h) {
+    // Inner edges are met twice, those of a border once; a quarter and a half of a length is near
+    // enough.
+    const uint32_t a = set.triangle[h], b = set.triangle[mesh::next_half_edge(h)];
+    const double edge = length(set.position[b] - set.position[a]);
+    all[a] += edge;
+    ++count[a];
+    if (!set.constrained[a] || !set.constrained[b]) continue;
+    constraints->share[a] += 0.5 * edge;
+    constraints->share[b] += 0.5 * edge;
+  }
+  for (size_t v = 0; v < n; ++v) {
+    if (!set.constrained[v]) continue;
+    constraints->cutoff[v] = set.soft;
+    if (constraints->share[v] == 0.0)
+      constraints->share[v] = all[v] / static_cast<double>(count[v]);
+  }
+  return {};
+}
+
+}  // namespace wireskin

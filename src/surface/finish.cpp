@@ -1,0 +1,174 @@
+#include "surface/finish.h"
+
+#include "curves/distance.h"
+#include "mesh/curvature.h"
+#include "smooth/fair.h"
+
+namespace wireskin {
+
+Status count_topology(uint32_t vertices, Span<const uint32_t> triangles, mesh::Topology* topology,
+                      Counts* counts) {
+  Array<uint32_t> twins(topology->component.context());
+  counts->vertices = vertices;
+  counts->triangles = static_cast<uint32_t>(triangles.size() / 3);
+  TRY(mesh::find_twins(vertices, triangles, &twins));
+  TRY(mesh::find_topology(vertices, triangles, twins.span(), topology));
+  counts->components = topology->components;
+  counts->boundary_loops = topology->boundary_loops;
+  counts->euler_characteristic = topology->euler_characteristic;
+  return {};
+}
+
+// Normals, curvatures and the figures of the report, of the finished mesh.
+static Status measure(Context& context, Span<const uint8_t> on_border, Span<const uint8_t> on_curve,
+                      Surface* surface) {
+  TRY(context.enter(Stage::result));
+  for (const Vec3& p : surface->position) {
+    if (p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0) continue;
+    return fail(Code::not_positive_definite, "the solution of the linear system is not finite");
+  }
+  TRY(surface->normal.resize(surface->position.size()));
+  mesh::vertex_normals(surface->position.span(), surface->triangle.span(), surface->normal.span());
+  TRY(context.progress(0.3));
+  TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
+                           surface->triangle.span(), on_border, &surface->mean_curvature));
+  TRY(mesh::gaussian_curvature(surface->position.span(), surface->triangle.span(), on_border,
+                               &surface->gaussian_curvature));
+  TRY(context.progress(0.6));
+  Counts* counts = &surface->counts;
+  counts->least_angle = mesh::least_angle(surface->position.span(), surface->triangle.span());
+  counts->normal_deviation =
+      mesh::deviation(surface->normal.span(), surface->constraint_normal.span());
+  TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
+                            surface->patch.span(), on_curve, &counts->dihedral));
+  return context.progress(0.8);
+}
+
+namespace {
+
+// What the methods work on: the mesh itself, or the one cut open along its creases.
+struct Workpiece {
+  Span<Vec3> position, normal;
+  Span<uint32_t> triangle;
+  Span<const uint8_t> on_curve, held, on_border, bare;
+  smooth::Soft soft;
+};
+
+}  // namespace
+
+static Status apply_method(Context& context, const Start& start, const Workpiece& piece,
+                           smooth::Method method, Surface* surface) {
+  Counts* counts = &surface->counts;
+  if (method != smooth::Method::iterated && method != smooth::Method::fair) {
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
+                                   piece.on_border, start.metric, piece.soft,     piece.bare};
+    return smooth::smooth(context, domain, method, {piece.position, piece.normal},
+                          &counts->residual);
+  }
+  smooth::FairReport report;
+  smooth::FairOptions options;
+  if (method == smooth::Method::iterated) options.displacement_steps = 0;
+  const bool planes = start.metric == smooth::Metric::planes;
+  const smooth::FairMesh mesh = {piece.position,
+                                 piece.normal,
+                                 piece.triangle,
+                                 surface->patch.span(),
+                                 piece.on_curve,
+                                 piece.held,
+                                 piece.on_border,
+                                 piece.soft,
+                                 planes ? start.shape : Span<const mesh::TriangleShape>{},
+                                 piece.bare};
+  TRY(smooth::fair(context, mesh, counts->patches, options, &report));
+  counts->residual = report.residual;
+  counts->guarded_patches = report.guarded_patches;
+  counts->iterations = report.iterations;
+  return {};
+}
+
+// Smooths the surface by the chosen method and measures the result.
+Status smooth_surface(Context& context, const Start& start, const Constraints& constraints,
+                      smooth::Method method, Surface* surface) {
+  Array<Vec3> normal(context), anchor(context);
+  TRY(normal.copy(surface->constraint_normal.span()));
+  if (!constraints.cutoff.empty()) TRY(anchor.copy(surface->position.span()));
+  const Workpiece piece = {surface->position.span(),
+                           normal.span(),
+                           surface->triangle.span(),
+                           constraints.on_curve.span(),
+                           constraints.held.span(),
+                           start.on_border,
+                           {},
+                           {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
+                            surface->constraint_normal.span(), surface->counts.spacing}};
+  TRY(apply_method(context, start, piece, method, surface));
+  return measure(context, start.on_border, constraints.on_curve.span(), surface);
+}
+
+// The same on the mesh cut open along the creases.
+Status smooth_creased(Context& context, const Start& start, const Constraints& constraints,
+                      smooth::Method method, network::CreasedMesh* creased, Surface* surface) {
+  const size_t copies = creased->position.size();
+  Array<Vec3> anchor(context), given_normal(context);
+  Array<double> cutoff(context), share(context);
+  Array<uint8_t> on_curve(context), held(context);
+  TRY(on_curve.resize(copies));
+  TRY(held.resize(copies));
+  if (!constraints.cutoff.empty()) {
+    TRY(cutoff.resize(copies));
+    TRY(share.resize(copies));
+    TRY(anchor.copy(creased->position.span()));
+    TRY(given_normal.copy(creased->normal.span()));
+  }
+  for (size_t c = 0; c < copies; ++c) {
+    const uint32_t v = creased->cut.origin[c];
+    on_curve[c] = constraints.on_curve[v];
+    held[c] = constraints.held[v];
+    if (cutoff.empty()) continue;
+    cutoff[c] = constraints.cutoff[v];
+    share[c] = constraints.share[v];
+  }
+  const Workpiece piece = {
+      creased->position.span(),
+      creased->normal.span(),
+      creased->cut.triangle.span(),
+      on_curve.span(),
+      held.span(),
+      creased->on_border.span(),
+      creased->bare.span(),
+      {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing}};
+  TRY(apply_method(context, start, piece, method, surface));
+  network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
+  TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
+              surface));
+  return network::measure_sides(
+      context, *creased, surface->patch.span(),
+      {surface->normal.span(), surface->mean_curvature.span(), surface->constraint_normal.span(),
+       &surface->counts.normal_deviation, &surface->counts.dihedral});
+}
+
+Status measure_constraints(const CurveSet& set, Span<const Vec3> given, Surface* surface) {
+  Context& context = surface->position.context();
+  Array<Vec3> line(context);
+  double sum = 0.0;
+  size_t edge = 0;
+  for (uint32_t c = 0; c < set.closed.size(); ++c) {
+    line.clear();
+    for (; edge < surface->curve_edge_curve.size() && surface->curve_edge_curve[edge] == c;
+         ++edge) {
+      if (line.empty()) TRY(line.push(surface->position[surface->curve_edge[2 * edge]]));
+      TRY(line.push(surface->position[surface->curve_edge[2 * edge + 1]]));
+    }
+    const size_t first = set.start[c], count = set.start[c + 1] - first;
+    const curves::LineDistance distance =
+        curves::distance_to_line(given.part(first, count), line.span(), set.closed[c] != 0);
+    sum += distance.sum_of_squares;
+    if (distance.greatest > surface->counts.greatest_distance) {
+      surface->counts.greatest_distance = distance.greatest;
+    }
+  }
+  surface->counts.mean_square_distance = sum / static_cast<double>(given.size());
+  return {};
+}
+
+}  // namespace wireskin
