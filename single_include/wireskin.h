@@ -174,7 +174,7 @@ enum {
   /* Stanko's method twice, on the surface itself instead of the planes: a harmonic start, edge flips
      and relaxation before each step. Cheap, and much closer than STANKO on most shapes. */
   WSK_METHOD_ITERATED = 4,
-  /* The default: ITERATED, then three steps of minimum variation along the normals (after H. Moreton,
+  /* The default: ITERATED, then up to six steps of minimum variation along the normals (after H. Moreton,
      C. Sequin, "Functional Optimization for Fair Surface Design", 1992), in which the normals on the
      curves bind. A patch whose displacement runs away keeps what ITERATED gave. */
   WSK_METHOD_FAIR = 5,
@@ -190,10 +190,11 @@ enum {
   WSK_SMOOTHING_NONE = 1,
   /* One smoothing spline over the whole network, whose strength is found by generalised cross
      validation, for positions and normals separately; nodes move with their curves. Samples without
-     noise stay as they are, bit for bit. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline
+     noise stay as they are, bit for bit. With sharp curves in the network only positions are
+     smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline
      Functions", 1979. */
   WSK_SMOOTHING_AUTO = 2,
-  /* The same with the noise of the positions stated in wsk_options.noise. */
+  /* The same with the noise of the positions stated in wsk_options.noise; 0 means NONE. */
   WSK_SMOOTHING_GIVEN = 3,
   WSK_SMOOTHING_COUNT = 4
 };
@@ -214,8 +215,9 @@ typedef struct wsk_options {
   /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none. */
   double noise;
   /* Soft constraints: curves pull the surface instead of holding it. A length in your units: details
-     of a curve shorter than this are smoothed away, longer ones kept. 0 (the default): curves hold.
-     wsk_curve.soft overrides it for one curve. */
+     of a curve shorter than this are smoothed away, longer ones kept. 0 (the default), or less than
+     a thousandth of the spacing: curves hold. More than a tenth of the diagonal of the bounding box
+     is refused: nothing would be left to keep. wsk_curve.soft overrides it for one curve. */
   double soft;
 
   /* Memory: aligned for double and pointers, null on failure. `release` is told the size that was
@@ -279,7 +281,7 @@ typedef struct wsk_report {
   uint32_t cg_iterations;  /* iterations of conjugate gradients with an earlier factor */
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
   uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them */
-  double noise_position; /* standard deviation of each coordinate, as estimated; 0 if not */
+  double noise_position; /* standard deviation of each coordinate, estimated or given; 0 if neither */
   double noise_normal;   /* the same of the unit normals' components */
   /* Distance of all given samples from the curves of the result, in your units (wsk_build). */
   double constraint_distance_max;
@@ -322,7 +324,8 @@ typedef struct wsk_curve {
   /* Non-zero: the surface ends at this curve, it lies on one side only. */
   int32_t boundary;
   /* How firmly the surface keeps to this curve: 0 as wsk_options.soft says, negative: it holds,
-     positive: its own cutoff length. At a node the firmest of its curves decides. */
+     positive: its own cutoff length. At a node the firmest of its curves decides. Sharp curves
+     always hold. */
   double soft;
   /* Non-zero: the curve is a crease. The surface is smooth on each side of it, not across it, and
      has a normal on each side: `normals` are those on the left, seen from outside by someone who
@@ -342,11 +345,13 @@ typedef struct wsk_curve {
  * Curves are interpolated by cubic splines in chord length (periodic when closed, tangents of the
  * end parabolas when open), positions and normals alike. Samples nearer than half the curve's mean
  * spacing to the last one kept are left out before that, nodes never; nodes are vertices of the
- * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where two curves end at a node.
+ * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where two curves
+ * end at a node.
  *
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
  * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen without
- * folds from the mean of its normals it is triangulated in that plane, else by a triangulation of
+ * folds from the mean of its normals (for ITERATED and FAIR: and not too steeply, the mean cosine
+ * between them being at least 1/4) it is triangulated in that plane, else by a triangulation of
  * least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995).
  *
  * Where sharp curves meet, the node's normal is the mean of their sides; where some of these are
@@ -380,7 +385,9 @@ typedef struct wsk_mesh {
 } wsk_mesh;
 
 /* Smooths the caller's mesh: vertices that are not constrained move, vertices and triangles keep
- * their order and number. In the result every constrained vertex is of curve 0, and every triangle
+ * their order and number. ITERATED and FAIR may flip edges between vertices that are not both
+ * constrained, so a triangle may get other corners; and on a mesh without patches the normals bind FAIR
+ * at open borders only, at constrained vertices inside they guide as for ITERATED. In the result every constrained vertex is of curve 0, and every triangle
  * of patch 0. Arguments and outcome as for wsk_build. */
 wsk_status wsk_smooth_mesh(const wsk_mesh* mesh, const wsk_options* options, wsk_surface** surface,
                            wsk_report* report);
@@ -1095,9 +1102,9 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
 AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given);
 
 /* The angle between the triangles on both sides of an edge, over the edges of curves: those whose */
-/* ends are both on curves and, in a mesh of several patches, that divide patches. */
+/* ends are both on curves and, where `divided` says that curves divide patches, that do so. */
 Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
-                       Span<const uint32_t> patch, Span<const uint8_t> on_curve,
+                       Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
                        AngleStatistics* dihedral);
 
 }  /* namespace wireskin::mesh */
@@ -1327,8 +1334,8 @@ class Roughness {
 /* even the least weight pays, or there are too few samples to tell noise from shape, they are left */
 /* as they are. Closed curves are smoothed across their ends. Sharp turns survive where curves end, */
 /* as nothing is asked across an end, and at samples marked as corners; elsewhere they are rounded. */
-/* Scaling the positions by a power of two scales the result exactly. Cost: one analysis and */
-/* at most 43 factorisations, about 20 where there are many samples. */
+/* Scaling the positions by a power of two scales the result exactly. Cost: an analysis */
+/* and some twenty factorisations where there are many samples, a hundred at most. */
 /* */
 /* Sources: P. Craven, G. Wahba, "Smoothing Noisy Data with Spline Functions", 1979; V. Morozov, "On */
 /* the Solution of Functional Equations by the Method of Regularization", 1966, for given noise. */
@@ -2054,13 +2061,13 @@ void sort(Span<T> values, const Less& less) {
 /* themselves in space, and those that run clockwise round their own normals, as the outside of an */
 /* open surface does whose border is not tagged. */
 /* */
-/* In: the positions and unit normals of a border in order. Out: a status without place. O(n^2), */
-/* with cheap rejections. */
+/* In: the positions and unit normals (zero: unknown) of a border in order. Out: a status without */
+/* place. O(n^2), with cheap rejections. */
 
 namespace wireskin::network {
 
 /* Fails with patch_folded or patch_without_plane. */
-Status check_border(Span<const Vec3> position, Span<const Vec3> normal);
+Status check_border(Context& context, Span<const Vec3> position, Span<const Vec3> normal);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/border.h ======== */
@@ -2294,8 +2301,8 @@ struct VertexMeasures {
 
 /* At creases all of these are those of the sides, each measured by itself, in the mean. */
 /* `patch`: of each triangle. */
-Status measure_sides(Context& context, const CreasedMesh& creased, Span<const uint32_t> patch,
-                     const VertexMeasures& measures);
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
+                     Span<const uint32_t> patch, const VertexMeasures& measures);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/crease.h ======== */
@@ -3167,7 +3174,7 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
 /* normals, triangles (edges inside patches may be flipped). A patch whose displacement runs away */
 /* (more than a quarter of its size, or growing) is put back to what the paper's steps gave and */
 /* stays there. Cost: one factorisation of size n for the start, one for each of two paper steps, */
-/* one of size 2 n for each of three displacements. Sources: T. Stanko et al., "Surfacing Curve */
+/* one of size 2 n for the displacements, more where it no longer serves the later ones. Sources: T. Stanko et al., "Surfacing Curve */
 /* Networks with Normal Control", 2016; H. Moreton, C. Sequin, "Functional Optimization for Fair */
 /* Surface Design", 1992. */
 
@@ -3373,12 +3380,16 @@ struct Constraints {
       : on_curve(context), held(context), cutoff(context), share(context) {}
 };
 
+/* Fails with bad_argument where a cutoff is a large part of the size of everything: springs that */
+/* weak hold nothing. */
+Status check_cutoff(double cutoff, double size, uint32_t curve);
+
 /* The first `curve_vertices` vertices of the surface are those on curves. */
 Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surface& surface,
                         Constraints* constraints);
 
 /* Where constrained vertices form no edges, a vertex stands for the mean length of its edges. */
-Status constrain_vertices(const TriangleSet& set, Constraints* constraints);
+Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* constraints);
 
 }  /* namespace wireskin */
 /* ======== end src/surface/constraints.h ======== */
@@ -3671,12 +3682,10 @@ AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
 }
 
 Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
-                       Span<const uint32_t> patch, Span<const uint8_t> on_curve,
+                       Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
                        AngleStatistics* dihedral) {
   Array<uint32_t> twins(context);
   TRY(find_twins(static_cast<uint32_t>(positions.size()), triangles, &twins));
-  bool one_patch = true;
-  for (uint32_t p : patch) one_patch = one_patch && p == patch[0];
   const auto face = [&](uint32_t h) {
     const uint32_t* v = &triangles[h / 3 * 3];
     return cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
@@ -3684,7 +3693,7 @@ Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const 
   AngleSum sum;
   for (uint32_t h = 0; h < twins.size(); ++h) {
     const uint32_t g = twins[h];
-    if (g == k_none || g < h || (!one_patch && patch[h / 3] == patch[g / 3])) continue;
+    if (g == k_none || g < h || (divided && patch[h / 3] == patch[g / 3])) continue;
     if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
     sum.add(angle_between(face(h), face(g)));
   }
@@ -4789,6 +4798,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
   counts->spacing = settings.spacing > 0.0 ? settings.spacing : size / 100.0;
+  for (uint32_t c = 0; c < set.soft.size(); ++c) TRY(check_cutoff(set.soft[c], size, c));
   TRY(given.copy(set.position));
   TRY(fit_curves(context, set, size, settings.smoothing, &nodes, &fitted, counts));
 
@@ -4884,7 +4894,8 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
   counts->spacing = mean_edge_length(set.position, set.triangle);
   TRY(take_triangles(set, surface));
   TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
-  TRY(constrain_vertices(set, &constraints));
+  TRY(check_cutoff(set.soft, diagonal(set.position), k_none));
+  TRY(constrain_vertices(set, counts->spacing, &constraints));
   return smooth_surface(context, {shapes.span(), smooth::Metric::space, topology.on_border.span()},
                         constraints, settings.method, surface);
 }
@@ -5278,8 +5289,9 @@ static double square_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
 }
 
 LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed) {
-  /* Beyond the nearest edge so far the search goes on this many edges without finding a nearer one. */
-  constexpr size_t k_patience = 16;
+  /* The search begins a little before the last nearest edge, and goes on beyond the nearest one so */
+  /* far for this many edges and for the way that the samples went. */
+  constexpr size_t k_back = 4, k_patience = 16;
   LineDistance result;
   if (line.size() < 2) return result;
   const size_t edges = line.size() - 1;
@@ -5287,6 +5299,10 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
   for (size_t i = 0; i < samples.size(); ++i) {
     double best = -1.0;
     size_t nearest = from, misses = 0;
+    const double way = i > 0 ? 2.0 * length(samples[i] - samples[i - 1]) : 0.0;
+    double walked = 0.0;  /* since the nearest edge */
+    from =
+        closed ? (from + edges - k_back % edges) % edges : from - (from < k_back ? from : k_back);
     for (size_t step = 0; step < edges; ++step) {
       if (!closed && from + step >= edges) break;
       const size_t e = (from + step) % edges;
@@ -5295,7 +5311,11 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
         best = square;
         nearest = e;
         misses = 0;
-      } else if (i > 0 && ++misses > k_patience) {
+        walked = 0.0;
+        continue;
+      }
+      walked += length(line[e + 1] - line[e]);
+      if (i > 0 && ++misses > k_patience && walked > way) {
         break;  /* the first sample of a closed curve may be anywhere */
       }
     }
@@ -5597,6 +5617,7 @@ Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const ui
   TRY(cut->origin.resize(vertices));
   for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
   for (uint32_t h = 0; h < triangles.size(); ++h) {
+    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
     if (cut->triangle[h] != k_none) continue;
     const uint32_t v = triangles[h];
     uint32_t copy = v;
@@ -5612,7 +5633,6 @@ Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const ui
       g = marked[across] ? k_none : twins[across];
       if (g == first) break;
     }
-    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
   }
   return {};
 }
@@ -6254,8 +6274,8 @@ static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, con
   return dot(gap, gap);
 }
 
-/* Whether two edges without a common end touch, to within a millionth of the border's length. */
-static bool crosses_itself(Span<const Vec3> position, double perimeter) {
+/* Fails where two edges without a common end touch, to within a millionth of the border's length. */
+static Status find_crossing(Context& context, Span<const Vec3> position, double perimeter) {
   constexpr double k_touch = 1e-6;
   const size_t n = position.size();
   for (size_t i = 0; i < n; ++i) {
@@ -6265,13 +6285,16 @@ static bool crosses_itself(Span<const Vec3> position, double perimeter) {
       if (i == 0 && j == n - 1) continue;
       const Vec3 &c = position[j], &d = position[j + 1 < n ? j + 1 : 0];
       if (length(c - a) > own + length(d - c) + k_touch * perimeter) continue;
-      if (segment_distance2(a, b, c, d) <= k_touch * perimeter * (k_touch * perimeter)) return true;
+      if (segment_distance2(a, b, c, d) <= k_touch * perimeter * (k_touch * perimeter)) {
+        return fail(Code::patch_folded, "the border of the patch crosses itself");
+      }
     }
+    if (i % 64 == 63) TRY(context.checkpoint());
   }
-  return false;
+  return {};
 }
 
-Status check_border(Span<const Vec3> position, Span<const Vec3> normal) {
+Status check_border(Context& context, Span<const Vec3> position, Span<const Vec3> normal) {
   const size_t n = position.size();
   Vec3 area, normals;
   double perimeter = 0.0;
@@ -6290,10 +6313,7 @@ Status check_border(Span<const Vec3> position, Span<const Vec3> normal) {
         "the border runs clockwise round its normals: where a surface ends, its curves must be "
         "tagged as boundary");
   }
-  if (crosses_itself(position, perimeter)) {
-    return fail(Code::patch_folded, "the border of the patch crosses itself");
-  }
-  return {};
+  return find_crossing(context, position, perimeter);
 }
 
 }  /* namespace wireskin::network */
@@ -6961,7 +6981,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
   if (status.code != Code::patch_without_plane && status.code != Code::patch_folded) return status;
-  TRY(check_border(scratch->loop.span(), scratch->loop_normal.span()));
+  TRY(check_border(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span()));
   TRY(mesh_in_space(spacing, scratch));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
@@ -7185,8 +7205,8 @@ void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_
   }
 }
 
-Status measure_sides(Context& context, const CreasedMesh& creased, Span<const uint32_t> patch,
-                     const VertexMeasures& measures) {
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
+                     Span<const uint32_t> patch, const VertexMeasures& measures) {
   const size_t n = measures.normal.size(), copies = creased.position.size();
   Array<Vec3> normal(context), given(context);
   Array<double> curvature(context), count(context);
@@ -7205,7 +7225,7 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const ui
     const uint32_t v = creased.cut.origin[c];
     measures.normal[v] += normal[c];
     measures.mean_curvature[v] += curvature[c];
-    if (creased.held[c] && !creased.bare[c]) given[c] = creased.normal[c];
+    if (creased.held[c] && !creased.bare[c]) given[c] = given_normal[c];
     measures.constraint_normal[v] += given[c];
     count[v] += 1.0;
   }
@@ -7218,7 +7238,7 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const ui
   }
   *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
   return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
-                               creased.held.span(), measures.dihedral);
+                               creased.held.span(), true, measures.dihedral);
 }
 
 }  /* namespace wireskin::network */
@@ -10211,10 +10231,17 @@ Status MinimumVariation::solve_by_new_factor(const sparse::Csc& rows, Span<const
   TRY(context_.enter(Stage::factor));
   TRY(sparse::minimum_degree(matrix, &order));
   TRY(factor_.analyse(matrix, order.span()));
-  TRY(factor_.factor(matrix));
+  Status factored = factor_.factor(matrix);
+  factored.place = {};  /* a column of ours means nothing to the caller */
+  TRY(factored);
   ++factorisations_;
   bool solved = false;
   TRY(solve_by_old_factor(rows, weight, rhs, solution, &solved));
+  /* Short of the tolerance the solution may still serve; one that is no number may not. */
+  if (!solved && !(residual_ < 1.0)) {
+    return fail(Code::not_positive_definite,
+                "the linear system cannot be solved in double precision");
+  }
   return {};
 }
 
@@ -10488,7 +10515,7 @@ static Status watch(Context& context, const FairMesh& mesh, Span<const double> s
   for (size_t h = 0; h < mesh.triangle.size(); ++h) {
     const double u = std::fabs(step[mesh.triangle[h]]);
     double& most = greatest[mesh.patch[h / 3]];
-    if (!(u <= most)) most = u;
+    if (most == most && !(u <= most)) most = u;  /* not a number stays */
   }
   for (uint32_t p = 0; p < greatest.size(); ++p) {
     if (guard->frozen[p]) continue;
@@ -10655,7 +10682,9 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
     TRY(factor_.analyse(matrix_, order.span()));
     analysed_ = true;
   }
-  return factor_.factor(matrix_);
+  Status factored = factor_.factor(matrix_);
+  factored.place = {};  /* a column of ours means nothing to the caller */
+  return factored;
 }
 
 void System::store_right_hand_side(Span<const Vec3> values) {
@@ -10704,7 +10733,7 @@ double System::residual_of(Span<double> residual) const {
   double worst = 0.0;
   for (int c = 0; c < 3; ++c) {
     const double ratio = whole[c] > 0.0 ? std::sqrt(left[c] / whole[c]) : 0.0;
-    if (ratio > worst) worst = ratio;
+    if (!(ratio <= worst)) worst = ratio;  /* not a number stays */
   }
   return worst;
 }
@@ -10864,6 +10893,18 @@ static Status curve_shares(const Surface& surface, Array<double>* share) {
   return {};
 }
 
+/* In units of the spacing, and of the diagonal of the bounding box. */
+static constexpr double k_least_cutoff = 1e-3;
+static constexpr double k_greatest_cutoff = 0.1;
+
+Status check_cutoff(double cutoff, double size, uint32_t curve) {
+  if (cutoff <= k_greatest_cutoff * size) return {};
+  Place place;
+  place.curve = curve;
+  return fail(Code::bad_argument,
+              "the cutoff length of soft constraints is more than a tenth of the diagonal", place);
+}
+
 Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surface& surface,
                         Constraints* constraints) {
   const size_t n = surface.position.size();
@@ -10881,7 +10922,8 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
     double& cutoff = constraints->cutoff[surface.curve_edge[e]];
     const uint32_t curve = surface.curve_edge_curve[e / 2];
     const bool sharp = !set.sharp.empty() && set.sharp[curve];  /* these hold in any case */
-    const double own = sharp ? 0.0 : set.soft[curve];
+    const bool holds = sharp || set.soft[curve] < k_least_cutoff * surface.counts.spacing;
+    const double own = holds ? 0.0 : set.soft[curve];
     if (cutoff < 0.0 || own < cutoff) cutoff = own;
   }
   for (size_t v = 0; v < n; ++v) {
@@ -10891,9 +10933,9 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
   return {};
 }
 
-Status constrain_vertices(const TriangleSet& set, Constraints* constraints) {
+Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* constraints) {
   const size_t n = set.position.size();
-  const bool soft = set.soft > 0.0;
+  const bool soft = set.soft > k_least_cutoff * spacing;
   TRY(constraints->on_curve.copy(set.constrained));
   TRY(constraints->held.assign(n, 0));
   for (size_t v = 0; v < n; ++v) constraints->held[v] = set.constrained[v] != 0 && !soft;
@@ -10965,7 +11007,8 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Span<cons
   counts->normal_deviation =
       mesh::deviation(surface->normal.span(), surface->constraint_normal.span());
   TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
-                            surface->patch.span(), on_curve, &counts->dihedral));
+                            surface->patch.span(), on_curve, !surface->curve_edge.empty(),
+                            &counts->dihedral));
   return context.progress(0.8);
 }
 
@@ -11043,8 +11086,8 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
     TRY(cutoff.resize(copies));
     TRY(share.resize(copies));
     TRY(anchor.copy(creased->position.span()));
-    TRY(given_normal.copy(creased->normal.span()));
   }
+  TRY(given_normal.copy(creased->normal.span()));
   for (size_t c = 0; c < copies; ++c) {
     const uint32_t v = creased->cut.origin[c];
     on_curve[c] = constraints.on_curve[v];
@@ -11067,7 +11110,7 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
               surface));
   return network::measure_sides(
-      context, *creased, surface->patch.span(),
+      context, *creased, given_normal.span(), surface->patch.span(),
       {surface->normal.span(), surface->mean_curvature.span(), surface->constraint_normal.span(),
        &surface->counts.normal_deviation, &surface->counts.dihedral});
 }

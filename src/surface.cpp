@@ -64,6 +64,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
   counts->spacing = settings.spacing > 0.0 ? settings.spacing : size / 100.0;
+  for (uint32_t c = 0; c < set.soft.size(); ++c) TRY(check_cutoff(set.soft[c], size, c));
   TRY(given.copy(set.position));
   TRY(fit_curves(context, set, size, settings.smoothing, &nodes, &fitted, counts));
 
@@ -159,7 +160,8 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
   counts->spacing = mean_edge_length(set.position, set.triangle);
   TRY(take_triangles(set, surface));
   TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
-  TRY(constrain_vertices(set, &constraints));
+  TRY(check_cutoff(set.soft, diagonal(set.position), k_none));
+  TRY(constrain_vertices(set, counts->spacing, &constraints));
   return smooth_surface(context, {shapes.span(), smooth::Metric::space, topology.on_border.span()},
                         constraints, settings.method, surface);
 }

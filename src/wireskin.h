@@ -168,7 +168,7 @@ enum {
   /* Stanko's method twice, on the surface itself instead of the planes: a harmonic start, edge flips
      and relaxation before each step. Cheap, and much closer than STANKO on most shapes. */
   WSK_METHOD_ITERATED = 4,
-  /* The default: ITERATED, then three steps of minimum variation along the normals (after H. Moreton,
+  /* The default: ITERATED, then up to six steps of minimum variation along the normals (after H. Moreton,
      C. Sequin, "Functional Optimization for Fair Surface Design", 1992), in which the normals on the
      curves bind. A patch whose displacement runs away keeps what ITERATED gave. */
   WSK_METHOD_FAIR = 5,
@@ -184,10 +184,11 @@ enum {
   WSK_SMOOTHING_NONE = 1,
   /* One smoothing spline over the whole network, whose strength is found by generalised cross
      validation, for positions and normals separately; nodes move with their curves. Samples without
-     noise stay as they are, bit for bit. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline
+     noise stay as they are, bit for bit. With sharp curves in the network only positions are
+     smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline
      Functions", 1979. */
   WSK_SMOOTHING_AUTO = 2,
-  /* The same with the noise of the positions stated in wsk_options.noise. */
+  /* The same with the noise of the positions stated in wsk_options.noise; 0 means NONE. */
   WSK_SMOOTHING_GIVEN = 3,
   WSK_SMOOTHING_COUNT = 4
 };
@@ -208,8 +209,9 @@ typedef struct wsk_options {
   /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none. */
   double noise;
   /* Soft constraints: curves pull the surface instead of holding it. A length in your units: details
-     of a curve shorter than this are smoothed away, longer ones kept. 0 (the default): curves hold.
-     wsk_curve.soft overrides it for one curve. */
+     of a curve shorter than this are smoothed away, longer ones kept. 0 (the default), or less than
+     a thousandth of the spacing: curves hold. More than a tenth of the diagonal of the bounding box
+     is refused: nothing would be left to keep. wsk_curve.soft overrides it for one curve. */
   double soft;
 
   /* Memory: aligned for double and pointers, null on failure. `release` is told the size that was
@@ -273,7 +275,7 @@ typedef struct wsk_report {
   uint32_t cg_iterations;  /* iterations of conjugate gradients with an earlier factor */
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
   uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them */
-  double noise_position; /* standard deviation of each coordinate, as estimated; 0 if not */
+  double noise_position; /* standard deviation of each coordinate, estimated or given; 0 if neither */
   double noise_normal;   /* the same of the unit normals' components */
   /* Distance of all given samples from the curves of the result, in your units (wsk_build). */
   double constraint_distance_max;
@@ -316,7 +318,8 @@ typedef struct wsk_curve {
   /* Non-zero: the surface ends at this curve, it lies on one side only. */
   int32_t boundary;
   /* How firmly the surface keeps to this curve: 0 as wsk_options.soft says, negative: it holds,
-     positive: its own cutoff length. At a node the firmest of its curves decides. */
+     positive: its own cutoff length. At a node the firmest of its curves decides. Sharp curves
+     always hold. */
   double soft;
   /* Non-zero: the curve is a crease. The surface is smooth on each side of it, not across it, and
      has a normal on each side: `normals` are those on the left, seen from outside by someone who
@@ -336,11 +339,13 @@ typedef struct wsk_curve {
  * Curves are interpolated by cubic splines in chord length (periodic when closed, tangents of the
  * end parabolas when open), positions and normals alike. Samples nearer than half the curve's mean
  * spacing to the last one kept are left out before that, nodes never; nodes are vertices of the
- * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where two curves end at a node.
+ * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where two curves
+ * end at a node.
  *
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
  * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen without
- * folds from the mean of its normals it is triangulated in that plane, else by a triangulation of
+ * folds from the mean of its normals (for ITERATED and FAIR: and not too steeply, the mean cosine
+ * between them being at least 1/4) it is triangulated in that plane, else by a triangulation of
  * least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995).
  *
  * Where sharp curves meet, the node's normal is the mean of their sides; where some of these are
@@ -374,7 +379,9 @@ typedef struct wsk_mesh {
 } wsk_mesh;
 
 /* Smooths the caller's mesh: vertices that are not constrained move, vertices and triangles keep
- * their order and number. In the result every constrained vertex is of curve 0, and every triangle
+ * their order and number. ITERATED and FAIR may flip edges between vertices that are not both
+ * constrained, so a triangle may get other corners; and on a mesh without patches the normals bind FAIR
+ * at open borders only, at constrained vertices inside they guide as for ITERATED. In the result every constrained vertex is of curve 0, and every triangle
  * of patch 0. Arguments and outcome as for wsk_build. */
 wsk_status wsk_smooth_mesh(const wsk_mesh* mesh, const wsk_options* options, wsk_surface** surface,
                            wsk_report* report);

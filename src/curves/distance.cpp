@@ -12,8 +12,9 @@ static double square_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
 }
 
 LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed) {
-  // Beyond the nearest edge so far the search goes on this many edges without finding a nearer one.
-  constexpr size_t k_patience = 16;
+  // The search begins a little before the last nearest edge, and goes on beyond the nearest one so
+  // far for this many edges and for the way that the samples went.
+  constexpr size_t k_back = 4, k_patience = 16;
   LineDistance result;
   if (line.size() < 2) return result;
   const size_t edges = line.size() - 1;
@@ -21,6 +22,10 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
   for (size_t i = 0; i < samples.size(); ++i) {
     double best = -1.0;
     size_t nearest = from, misses = 0;
+    const double way = i > 0 ? 2.0 * length(samples[i] - samples[i - 1]) : 0.0;
+    double walked = 0.0;  // since the nearest edge
+    from =
+        closed ? (from + edges - k_back % edges) % edges : from - (from < k_back ? from : k_back);
     for (size_t step = 0; step < edges; ++step) {
       if (!closed && from + step >= edges) break;
       const size_t e = (from + step) % edges;
@@ -29,7 +34,11 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
         best = square;
         nearest = e;
         misses = 0;
-      } else if (i > 0 && ++misses > k_patience) {
+        walked = 0.0;
+        continue;
+      }
+      walked += length(line[e + 1] - line[e]);
+      if (i > 0 && ++misses > k_patience && walked > way) {
         break;  // the first sample of a closed curve may be anywhere
       }
     }

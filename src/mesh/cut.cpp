@@ -24,6 +24,7 @@ Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const ui
   TRY(cut->origin.resize(vertices));
   for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
   for (uint32_t h = 0; h < triangles.size(); ++h) {
+    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
     if (cut->triangle[h] != k_none) continue;
     const uint32_t v = triangles[h];
     uint32_t copy = v;
@@ -39,7 +40,6 @@ Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const ui
       g = marked[across] ? k_none : twins[across];
       if (g == first) break;
     }
-    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
   }
   return {};
 }

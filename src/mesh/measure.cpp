@@ -58,12 +58,10 @@ AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
 }
 
 Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
-                       Span<const uint32_t> patch, Span<const uint8_t> on_curve,
+                       Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
                        AngleStatistics* dihedral) {
   Array<uint32_t> twins(context);
   TRY(find_twins(static_cast<uint32_t>(positions.size()), triangles, &twins));
-  bool one_patch = true;
-  for (uint32_t p : patch) one_patch = one_patch && p == patch[0];
   const auto face = [&](uint32_t h) {
     const uint32_t* v = &triangles[h / 3 * 3];
     return cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
@@ -71,7 +69,7 @@ Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const 
   AngleSum sum;
   for (uint32_t h = 0; h < twins.size(); ++h) {
     const uint32_t g = twins[h];
-    if (g == k_none || g < h || (!one_patch && patch[h / 3] == patch[g / 3])) continue;
+    if (g == k_none || g < h || (divided && patch[h / 3] == patch[g / 3])) continue;
     if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
     sum.add(angle_between(face(h), face(g)));
   }

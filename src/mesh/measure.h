@@ -23,9 +23,9 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
 AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given);
 
 // The angle between the triangles on both sides of an edge, over the edges of curves: those whose
-// ends are both on curves and, in a mesh of several patches, that divide patches.
+// ends are both on curves and, where `divided` says that curves divide patches, that do so.
 Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
-                       Span<const uint32_t> patch, Span<const uint8_t> on_curve,
+                       Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
                        AngleStatistics* dihedral);
 
 }  // namespace wireskin::mesh

@@ -18,8 +18,8 @@ static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, con
   return dot(gap, gap);
 }
 
-// Whether two edges without a common end touch, to within a millionth of the border's length.
-static bool crosses_itself(Span<const Vec3> position, double perimeter) {
+// Fails where two edges without a common end touch, to within a millionth of the border's length.
+static Status find_crossing(Context& context, Span<const Vec3> position, double perimeter) {
   constexpr double k_touch = 1e-6;
   const size_t n = position.size();
   for (size_t i = 0; i < n; ++i) {
@@ -29,13 +29,16 @@ static bool crosses_itself(Span<const Vec3> position, double perimeter) {
       if (i == 0 && j == n - 1) continue;
       const Vec3 &c = position[j], &d = position[j + 1 < n ? j + 1 : 0];
       if (length(c - a) > own + length(d - c) + k_touch * perimeter) continue;
-      if (segment_distance2(a, b, c, d) <= k_touch * perimeter * (k_touch * perimeter)) return true;
+      if (segment_distance2(a, b, c, d) <= k_touch * perimeter * (k_touch * perimeter)) {
+        return fail(Code::patch_folded, "the border of the patch crosses itself");
+      }
     }
+    if (i % 64 == 63) TRY(context.checkpoint());
   }
-  return false;
+  return {};
 }
 
-Status check_border(Span<const Vec3> position, Span<const Vec3> normal) {
+Status check_border(Context& context, Span<const Vec3> position, Span<const Vec3> normal) {
   const size_t n = position.size();
   Vec3 area, normals;
   double perimeter = 0.0;
@@ -54,10 +57,7 @@ Status check_border(Span<const Vec3> position, Span<const Vec3> normal) {
         "the border runs clockwise round its normals: where a surface ends, its curves must be "
         "tagged as boundary");
   }
-  if (crosses_itself(position, perimeter)) {
-    return fail(Code::patch_folded, "the border of the patch crosses itself");
-  }
-  return {};
+  return find_crossing(context, position, perimeter);
 }
 
 }  // namespace wireskin::network

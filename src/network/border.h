@@ -2,8 +2,8 @@
 // themselves in space, and those that run clockwise round their own normals, as the outside of an
 // open surface does whose border is not tagged.
 //
-// In: the positions and unit normals of a border in order. Out: a status without place. O(n^2),
-// with cheap rejections.
+// In: the positions and unit normals (zero: unknown) of a border in order. Out: a status without
+// place. O(n^2), with cheap rejections.
 #pragma once
 
 #include "base/array.h"
@@ -12,6 +12,6 @@
 namespace wireskin::network {
 
 // Fails with patch_folded or patch_without_plane.
-Status check_border(Span<const Vec3> position, Span<const Vec3> normal);
+Status check_border(Context& context, Span<const Vec3> position, Span<const Vec3> normal);
 
 }  // namespace wireskin::network

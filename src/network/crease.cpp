@@ -121,8 +121,8 @@ void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_
   }
 }
 
-Status measure_sides(Context& context, const CreasedMesh& creased, Span<const uint32_t> patch,
-                     const VertexMeasures& measures) {
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
+                     Span<const uint32_t> patch, const VertexMeasures& measures) {
   const size_t n = measures.normal.size(), copies = creased.position.size();
   Array<Vec3> normal(context), given(context);
   Array<double> curvature(context), count(context);
@@ -141,7 +141,7 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const ui
     const uint32_t v = creased.cut.origin[c];
     measures.normal[v] += normal[c];
     measures.mean_curvature[v] += curvature[c];
-    if (creased.held[c] && !creased.bare[c]) given[c] = creased.normal[c];
+    if (creased.held[c] && !creased.bare[c]) given[c] = given_normal[c];
     measures.constraint_normal[v] += given[c];
     count[v] += 1.0;
   }
@@ -154,7 +154,7 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const ui
   }
   *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
   return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
-                               creased.held.span(), measures.dihedral);
+                               creased.held.span(), true, measures.dihedral);
 }
 
 }  // namespace wireskin::network

@@ -54,7 +54,7 @@ struct VertexMeasures {
 
 // At creases all of these are those of the sides, each measured by itself, in the mean.
 // `patch`: of each triangle.
-Status measure_sides(Context& context, const CreasedMesh& creased, Span<const uint32_t> patch,
-                     const VertexMeasures& measures);
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
+                     Span<const uint32_t> patch, const VertexMeasures& measures);
 
 }  // namespace wireskin::network

@@ -160,7 +160,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices,
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
   if (status.code != Code::patch_without_plane && status.code != Code::patch_folded) return status;
-  TRY(check_border(scratch->loop.span(), scratch->loop_normal.span()));
+  TRY(check_border(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span()));
   TRY(mesh_in_space(spacing, scratch));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);

@@ -6,8 +6,8 @@
 // even the least weight pays, or there are too few samples to tell noise from shape, they are left
 // as they are. Closed curves are smoothed across their ends. Sharp turns survive where curves end,
 // as nothing is asked across an end, and at samples marked as corners; elsewhere they are rounded.
-// Scaling the positions by a power of two scales the result exactly. Cost: one analysis and
-// at most 43 factorisations, about 20 where there are many samples.
+// Scaling the positions by a power of two scales the result exactly. Cost: an analysis
+// and some twenty factorisations where there are many samples, a hundred at most.
 //
 // Sources: P. Craven, G. Wahba, "Smoothing Noisy Data with Spline Functions", 1979; V. Morozov, "On
 // the Solution of Functional Equations by the Method of Regularization", 1966, for given noise.

@@ -260,10 +260,17 @@ Status MinimumVariation::solve_by_new_factor(const sparse::Csc& rows, Span<const
   TRY(context_.enter(Stage::factor));
   TRY(sparse::minimum_degree(matrix, &order));
   TRY(factor_.analyse(matrix, order.span()));
-  TRY(factor_.factor(matrix));
+  Status factored = factor_.factor(matrix);
+  factored.place = {};  // a column of ours means nothing to the caller
+  TRY(factored);
   ++factorisations_;
   bool solved = false;
   TRY(solve_by_old_factor(rows, weight, rhs, solution, &solved));
+  // Short of the tolerance the solution may still serve; one that is no number may not.
+  if (!solved && !(residual_ < 1.0)) {
+    return fail(Code::not_positive_definite,
+                "the linear system cannot be solved in double precision");
+  }
   return {};
 }
 

@@ -100,7 +100,7 @@ static Status watch(Context& context, const FairMesh& mesh, Span<const double> s
   for (size_t h = 0; h < mesh.triangle.size(); ++h) {
     const double u = std::fabs(step[mesh.triangle[h]]);
     double& most = greatest[mesh.patch[h / 3]];
-    if (!(u <= most)) most = u;
+    if (most == most && !(u <= most)) most = u;  // not a number stays
   }
   for (uint32_t p = 0; p < greatest.size(); ++p) {
     if (guard->frozen[p]) continue;

@@ -92,7 +92,9 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
     TRY(factor_.analyse(matrix_, order.span()));
     analysed_ = true;
   }
-  return factor_.factor(matrix_);
+  Status factored = factor_.factor(matrix_);
+  factored.place = {};  // a column of ours means nothing to the caller
+  return factored;
 }
 
 void System::store_right_hand_side(Span<const Vec3> values) {
@@ -141,7 +143,7 @@ double System::residual_of(Span<double> residual) const {
   double worst = 0.0;
   for (int c = 0; c < 3; ++c) {
     const double ratio = whole[c] > 0.0 ? std::sqrt(left[c] / whole[c]) : 0.0;
-    if (ratio > worst) worst = ratio;
+    if (!(ratio <= worst)) worst = ratio;  // not a number stays
   }
   return worst;
 }

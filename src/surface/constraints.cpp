@@ -14,6 +14,18 @@ static Status curve_shares(const Surface& surface, Array<double>* share) {
   return {};
 }
 
+// In units of the spacing, and of the diagonal of the bounding box.
+static constexpr double k_least_cutoff = 1e-3;
+static constexpr double k_greatest_cutoff = 0.1;
+
+Status check_cutoff(double cutoff, double size, uint32_t curve) {
+  if (cutoff <= k_greatest_cutoff * size) return {};
+  Place place;
+  place.curve = curve;
+  return fail(Code::bad_argument,
+              "the cutoff length of soft constraints is more than a tenth of the diagonal", place);
+}
+
 Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surface& surface,
                         Constraints* constraints) {
   const size_t n = surface.position.size();
@@ -31,7 +43,8 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
     double& cutoff = constraints->cutoff[surface.curve_edge[e]];
     const uint32_t curve = surface.curve_edge_curve[e / 2];
     const bool sharp = !set.sharp.empty() && set.sharp[curve];  // these hold in any case
-    const double own = sharp ? 0.0 : set.soft[curve];
+    const bool holds = sharp || set.soft[curve] < k_least_cutoff * surface.counts.spacing;
+    const double own = holds ? 0.0 : set.soft[curve];
     if (cutoff < 0.0 || own < cutoff) cutoff = own;
   }
   for (size_t v = 0; v < n; ++v) {
@@ -41,9 +54,9 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
   return {};
 }
 
-Status constrain_vertices(const TriangleSet& set, Constraints* constraints) {
+Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* constraints) {
   const size_t n = set.position.size();
-  const bool soft = set.soft > 0.0;
+  const bool soft = set.soft > k_least_cutoff * spacing;
   TRY(constraints->on_curve.copy(set.constrained));
   TRY(constraints->held.assign(n, 0));
   for (size_t v = 0; v < n; ++v) constraints->held[v] = set.constrained[v] != 0 && !soft;

@@ -40,7 +40,8 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Span<cons
   counts->normal_deviation =
       mesh::deviation(surface->normal.span(), surface->constraint_normal.span());
   TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
-                            surface->patch.span(), on_curve, &counts->dihedral));
+                            surface->patch.span(), on_curve, !surface->curve_edge.empty(),
+                            &counts->dihedral));
   return context.progress(0.8);
 }
 
@@ -118,8 +119,8 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
     TRY(cutoff.resize(copies));
     TRY(share.resize(copies));
     TRY(anchor.copy(creased->position.span()));
-    TRY(given_normal.copy(creased->normal.span()));
   }
+  TRY(given_normal.copy(creased->normal.span()));
   for (size_t c = 0; c < copies; ++c) {
     const uint32_t v = creased->cut.origin[c];
     on_curve[c] = constraints.on_curve[v];
@@ -142,7 +143,7 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
               surface));
   return network::measure_sides(
-      context, *creased, surface->patch.span(),
+      context, *creased, given_normal.span(), surface->patch.span(),
       {surface->normal.span(), surface->mean_curvature.span(), surface->constraint_normal.span(),
        &surface->counts.normal_deviation, &surface->counts.dihedral});
 }
