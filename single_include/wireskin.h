@@ -190,11 +190,13 @@ enum {
   WSK_SMOOTHING_NONE = 1,
   /* One smoothing spline over the whole network, whose strength is found by generalised cross
      validation, for positions and normals separately; nodes move with their curves. Samples without
-     noise stay as they are, bit for bit. With sharp curves in the network only positions are
+     noise stay as they are, bit for bit; so do all, where smoothing would change the size of a curve
+     by more than a fifth (a tiny part beside a large one). With sharp curves in the network only positions are
      smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline
      Functions", 1979. */
   WSK_SMOOTHING_AUTO = 2,
-  /* The same with the noise of the positions stated in wsk_options.noise; 0 means NONE. */
+  /* The same with the noise of the positions stated in wsk_options.noise; 0 means NONE. Noise
+     that would change the size of a curve by more than a fifth is WSK_ERROR_BAD_ARGUMENT. */
   WSK_SMOOTHING_GIVEN = 3,
   WSK_SMOOTHING_COUNT = 4
 };
@@ -6657,10 +6659,12 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Array<uint8
     const Segment& segment = graph.segment_of(h);
     const int sides = !(*outside)[cycles.cycle[h]] + !(*outside)[cycles.cycle[opposite(h)]];
     if (!segment.boundary || sides == 1) continue;
+    const bool undecided = !inner[cycles.cycle[h]] && !inner[cycles.cycle[opposite(h)]];
     return fail_at_sample(
         Code::open_network,
-        "this boundary curve has the surface on both sides: every curve of a border "
-        "must be tagged as boundary, and no other",
+        undecided ? "the normals do not tell on which side of this boundary curve the surface lies"
+                  : "this boundary curve has the surface on both sides: every curve of a border "
+                    "must be tagged as boundary, and no other",
         segment.curve, graph.curve_of(h).sample[segment.first_knot]);
   }
   return {};
@@ -11191,6 +11195,27 @@ static void unite_nodes(const CurveSet& set, Span<const uint32_t> node,
   }
 }
 
+/* Whether smoothing changed the extent of any curve by more than a fifth. One strength serves the */
+/* whole network, so a tiny part beside a large one, or noise stated larger than the shape, would be */
+/* wiped out. */
+static bool changes_sizes(const CurveSet& set, Span<const uint32_t> kept_start,
+                          Span<const uint32_t> kept, Span<const Vec3> before) {
+  constexpr double k_tolerated = 0.2;
+  for (uint32_t c = 0; c + 1 < kept_start.size(); ++c) {
+    const uint32_t first = set.start[c] + kept[kept_start[c]];
+    double was = 0.0, is = 0.0;  /* greatest distance from the first sample */
+    for (uint32_t k = kept_start[c]; k < kept_start[c + 1]; ++k) {
+      const uint32_t i = set.start[c] + kept[k];
+      const double old_distance = length(before[i] - before[first]);
+      const double new_distance = length(set.position[i] - set.position[first]);
+      was = old_distance > was ? old_distance : was;
+      is = new_distance > is ? new_distance : is;
+    }
+    if (!(std::fabs(is - was) <= k_tolerated * was)) return true;
+  }
+  return false;
+}
+
 /* Thins all curves, takes the noise out of what is kept, and lets nodes move with their curves. */
 static Status smooth_curves(Context& context, const CurveSet& set, Span<const uint32_t> node,
                             const network::SmoothingOptions& options, Span<network::Node> nodes,
@@ -11207,7 +11232,9 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
   if (options.noise == network::Noise::none) return {};
   /* Where curves are sharp a node has no one normal, so normals stay as they are; the constant */
   /* field in their place has no noise. */
-  Array<Vec3> constant(context);
+  Array<Vec3> constant(context), position(context), normal(context);
+  TRY(position.copy(set.position));
+  TRY(normal.copy(set.normal));
   const bool creased = !set.sharp.empty();
   if (creased) TRY(constant.assign(set.normal.size(), Vec3{0, 0, 1}));
   const Span<Vec3> normals = creased ? constant.span() : set.normal;
@@ -11215,6 +11242,16 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
       context,
       {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, normals},
       options, &counts->noise));
+  if (changes_sizes(set, kept_start->span(), kept->span(), position.span())) {
+    if (options.noise == network::Noise::given) {
+      return fail(Code::bad_argument, "the noise stated is too large for the curves");
+    }
+    for (size_t i = 0; i < position.size(); ++i) {
+      set.position[i] = position[i];
+      set.normal[i] = normal[i];
+    }
+    counts->noise = {};
+  }
   for (size_t i = 0; i < node.size(); ++i) {
     if (node[i] == k_none) continue;
     nodes[node[i]].position = set.position[i];

@@ -1,7 +1,7 @@
 /*
  * Surfaces three great circles of the unit sphere and writes the mesh as OBJ.
  *
- *     cc three_circles.c libwireskin.a -lm -o three_circles
+ *     cc -I../../src three_circles.c libwireskin.a -lm -o three_circles
  *     ./three_circles sphere.obj        (without a name: to standard output)
  */
 #include <math.h>

@@ -52,7 +52,8 @@ options:
   --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
                      smoothed away
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
-                     written too, with the place of the fault, if no surface can be built
+                     written too, with the place of the fault, if no surface can be built from
+                     a network that could be read
   --image FILE.png   write a shaded picture with isophote stripes and the curves
   --up x|y|z         the axis that points up in the picture (default: z)
   --quiet            no progress, no summary
@@ -170,7 +171,8 @@ bool take_option(Words& words, Arguments& arguments) {
   } else if (words.is("--smooth")) {
     read_smoothing(words.value(), &arguments);
   } else if (words.is("--soft")) {
-    arguments.soft = length_of("--soft", words.value());
+    const std::string text = words.value();
+    arguments.soft = text == "0" ? 0.0 : length_of("--soft", text);
   } else if (words.is("--method")) {
     arguments.method = method_of(words.value());
   } else if (words.is("--up")) {

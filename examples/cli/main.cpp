@@ -48,6 +48,7 @@ static void write_outputs(const Arguments& arguments, const Network& network,
 static void run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const Network network = read_network(arguments.input);
+  catch_signals();  // from here on; while a pipe is read, a signal may simply end the command
   ProgressLine progress(!arguments.quiet);
   const BuildResult result = build_surface(network, arguments, progress.callbacks());
   progress.clear();
@@ -75,7 +76,6 @@ static int run_words(const std::vector<std::string>& words) {
     } else if (arguments.version) {
       std::printf("wireskin %s\n", wsk_version_string());
     } else {
-      catch_signals();
       run(arguments);
     }
     return 0;

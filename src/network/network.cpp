@@ -245,10 +245,12 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Array<uint8
     const Segment& segment = graph.segment_of(h);
     const int sides = !(*outside)[cycles.cycle[h]] + !(*outside)[cycles.cycle[opposite(h)]];
     if (!segment.boundary || sides == 1) continue;
+    const bool undecided = !inner[cycles.cycle[h]] && !inner[cycles.cycle[opposite(h)]];
     return fail_at_sample(
         Code::open_network,
-        "this boundary curve has the surface on both sides: every curve of a border "
-        "must be tagged as boundary, and no other",
+        undecided ? "the normals do not tell on which side of this boundary curve the surface lies"
+                  : "this boundary curve has the surface on both sides: every curve of a border "
+                    "must be tagged as boundary, and no other",
         segment.curve, graph.curve_of(h).sample[segment.first_knot]);
   }
   return {};

@@ -111,3 +111,36 @@ TEST_CASE("softness scales with the network") {
   }
   CHECK(different == 0);
 }
+
+TEST_CASE("noise found in one part does not wipe out a tiny one") {
+  // Two spheres, the small one a thousandth of the large; both without noise, unevenly sampled.
+  Scene scene = ellipsoid();
+  scene.method = WSK_METHOD_FAIR;
+  const size_t large = scene.curves.size();
+  for (size_t c = 0; c < large; ++c) {
+    Curve small = scene.curves[c];
+    for (size_t i = 0; i < small.positions.size(); ++i) {
+      small.positions[i] = 1e-3 * small.positions[i] + (i % 3 == 0 ? 3.0 : 0.0);
+    }
+    for (uint32_t& node : small.nodes) node = node == WSK_NONE ? node : node + 100;
+    scene.curves.push_back(small);
+  }
+  const Call call = watched_scene(scene);
+  REQUIRE(call.status == WSK_OK);
+  double low = 1e9, high = -1e9;
+  for (size_t i = 0; i < call.result.positions.size(); i += 3) {
+    if (call.result.positions[i] < 2.0) continue;
+    low = std::fmin(low, call.result.positions[i]);
+    high = std::fmax(high, call.result.positions[i]);
+  }
+  CHECK(high - low > 1.8e-3);
+  CHECK(high - low < 2.3e-3);
+}
+
+TEST_CASE("noise stated larger than the shape is refused") {
+  const Scene scene = octants();
+  wsk_options options = options_of(scene);
+  options.smoothing = WSK_SMOOTHING_GIVEN;
+  options.noise = 1e3;
+  CHECK(watched_scene(scene, options).status == WSK_ERROR_BAD_ARGUMENT);
+}
