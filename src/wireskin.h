@@ -55,6 +55,21 @@
 #define WIRESKIN_VERSION_PATCH 0
 #define WIRESKIN_VERSION_STRING "0.1.0"
 
+/* Before each function: hidden symbols are the rule in a shared library, these are the exception.
+ * Define WIRESKIN_SHARED to use one (CMake and pkg-config do), nothing for the archive or the
+ * single header. */
+#if defined(_WIN32) && defined(WIRESKIN_SHARED)
+#ifdef WIRESKIN_BUILDING
+#define WSK_API __declspec(dllexport)
+#else
+#define WSK_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__) && defined(WIRESKIN_SHARED)
+#define WSK_API __attribute__((visibility("default")))
+#else
+#define WSK_API
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -126,7 +141,7 @@ enum {
 
 /* The name of a status as written above without its prefix, in lower case ("zero_normal");
    "unknown" for other numbers. Static text. */
-const char* wsk_status_name(wsk_status status);
+WSK_API const char* wsk_status_name(wsk_status status);
 
 /* ---- Stages -----------------------------------------------------------------------------------
  */
@@ -146,7 +161,7 @@ enum {
 };
 
 /* The name of a stage in lower case ("curves"); "unknown" for other numbers. Static text. */
-const char* wsk_stage_name(wsk_stage stage);
+WSK_API const char* wsk_stage_name(wsk_stage stage);
 
 /* ---- Options ----------------------------------------------------------------------------------
  */
@@ -154,8 +169,9 @@ const char* wsk_stage_name(wsk_stage stage);
 typedef int32_t wsk_method;
 
 enum {
-  /* Stanko et al. 2016: normals and positions propagated biharmonically in the planes of the patches,
-     then the positions whose mean curvature vectors fit best those of the propagated normals. */
+  /* Stanko et al. 2016: normals and positions propagated biharmonically in the planes of the
+     patches, then the positions whose mean curvature vectors fit best those of the propagated
+     normals. */
   WSK_METHOD_STANKO = 0,
   /* Least square Laplacian of the positions; normals are not used for the shape. M. Botsch,
      L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004, order 2. */
@@ -165,12 +181,12 @@ enum {
   /* Biharmonic with the curvature vector prescribed on the curves: method (4) of Stanko et al., for
      comparison. Erratic by nature. */
   WSK_METHOD_CLAMPED = 3,
-  /* Stanko's method twice, on the surface itself instead of the planes: a harmonic start, edge flips
-     and relaxation before each step. Cheap, and much closer than STANKO on most shapes. */
+  /* Stanko's method twice, on the surface itself instead of the planes: a harmonic start, edge
+     flips and relaxation before each step. Cheap, and much closer than STANKO on most shapes. */
   WSK_METHOD_ITERATED = 4,
-  /* The default: ITERATED, then up to six steps of minimum variation along the normals (after H. Moreton,
-     C. Sequin, "Functional Optimization for Fair Surface Design", 1992), in which the normals on the
-     curves bind. A patch whose displacement runs away keeps what ITERATED gave. */
+  /* The default: ITERATED, then up to six steps of minimum variation along the normals (after H.
+     Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992), in which the
+     normals on the curves bind. A patch whose displacement runs away keeps what ITERATED gave. */
   WSK_METHOD_FAIR = 5,
   WSK_METHOD_COUNT = 6
 };
@@ -184,10 +200,10 @@ enum {
   WSK_SMOOTHING_NONE = 1,
   /* One smoothing spline over the whole network, whose strength is found by generalised cross
      validation, for positions and normals separately; nodes move with their curves. Samples without
-     noise stay as they are, bit for bit; so do all, where smoothing would change the size of a curve
-     by more than a fifth (a tiny part beside a large one). With sharp curves in the network only positions are
-     smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline
-     Functions", 1979. */
+     noise stay as they are, bit for bit; so do all, where smoothing would change the size of a
+     curve by more than a fifth (a tiny part beside a large one). With sharp curves in the network
+     only positions are smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with
+     Spline Functions", 1979. */
   WSK_SMOOTHING_AUTO = 2,
   /* The same with the noise of the positions stated in wsk_options.noise; 0 means NONE. Noise
      that would change the size of a curve by more than a fifth is WSK_ERROR_BAD_ARGUMENT. */
@@ -208,12 +224,14 @@ typedef struct wsk_options {
   double spacing;
   /* What is done about noise in the samples of wsk_build, before anything else. */
   wsk_smoothing smoothing;
-  /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none. */
+  /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none.
+   */
   double noise;
-  /* Soft constraints: curves pull the surface instead of holding it. A length in your units: details
-     of a curve shorter than this are smoothed away, longer ones kept. 0 (the default), or less than
-     a thousandth of the spacing: curves hold. More than a tenth of the diagonal of the bounding box
-     is refused: nothing would be left to keep. wsk_curve.soft overrides it for one curve. */
+  /* Soft constraints: curves pull the surface instead of holding it. A length in your units:
+     details of a curve shorter than this are smoothed away, longer ones kept. 0 (the default), or
+     less than a thousandth of the spacing: curves hold. More than a tenth of the diagonal of the
+     bounding box is refused: nothing would be left to keep. wsk_curve.soft overrides it for one
+     curve. */
   double soft;
 
   /* Memory: aligned for double and pointers, null on failure. `release` is told the size that was
@@ -237,7 +255,7 @@ typedef struct wsk_options {
 
 /* Writes the defaults into *options. `size` is sizeof(wsk_options) as the caller knows it. Does
    nothing for a null pointer or a size smaller than that of this version's first release. */
-void wsk_options_init(wsk_options* options, size_t size);
+WSK_API void wsk_options_init(wsk_options* options, size_t size);
 
 /* ---- Report -----------------------------------------------------------------------------------
  */
@@ -273,12 +291,13 @@ typedef struct wsk_report {
   double spacing;       /* the spacing used, in your units; mean edge length for wsk_smooth_mesh */
   double min_angle_deg; /* the least angle of all triangles of the result */
   double residual;      /* relative residual of the last linear solve, greatest of its columns */
-  uint32_t factorisations; /* Cholesky factorisations, of whatever size */
-  uint32_t cg_iterations;  /* iterations of conjugate gradients with an earlier factor */
+  uint32_t factorisations;       /* Cholesky factorisations, of whatever size */
+  uint32_t cg_iterations;        /* iterations of conjugate gradients with an earlier factor */
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
   uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them */
-  double noise_position; /* standard deviation of each coordinate, estimated or given; 0 if neither */
-  double noise_normal;   /* the same of the unit normals' components */
+  double
+      noise_position;  /* standard deviation of each coordinate, estimated or given; 0 if neither */
+  double noise_normal; /* the same of the unit normals' components */
   /* Distance of all given samples from the curves of the result, in your units (wsk_build). */
   double constraint_distance_max;
   double constraint_distance_rms;
@@ -288,14 +307,14 @@ typedef struct wsk_report {
   /* Angle between the two triangles at an edge of a curve: ridges would show here. */
   double dihedral_mean_deg;
   double dihedral_max_deg;
-  size_t peak_bytes;    /* the most memory held at any time during the call */
+  size_t peak_bytes;                /* the most memory held at any time during the call */
   double stage_ms[WSK_STAGE_COUNT]; /* 0 without a clock */
   double total_ms;
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
  */
-void wsk_report_init(wsk_report* report, size_t size);
+WSK_API void wsk_report_init(wsk_report* report, size_t size);
 
 /* ---- Surfaces ---------------------------------------------------------------------------------
  */
@@ -341,24 +360,25 @@ typedef struct wsk_curve {
  * Curves are interpolated by cubic splines in chord length (periodic when closed, tangents of the
  * end parabolas when open), positions and normals alike. Samples nearer than half the curve's mean
  * spacing to the last one kept are left out before that, nodes never; nodes are vertices of the
- * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where two curves
- * end at a node.
+ * result, bit for bit unless smoothing or softness moves them. Curves may have corners only where
+ * two curves end at a node.
  *
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
- * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen without
- * folds from the mean of its normals (for ITERATED and FAIR: and not too steeply, the mean cosine
- * between them being at least 1/4) it is triangulated in that plane, else by a triangulation of
- * least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995).
+ * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen
+ * without folds from the mean of its normals (for ITERATED and FAIR: and not too steeply, the mean
+ * cosine between them being at least 1/4) it is triangulated in that plane, else by a triangulation
+ * of least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron",
+ * 1995).
  *
  * Where sharp curves meet, the node's normal is the mean of their sides; where some of these are
- * not known it is estimated from the directions of the curves, outward as the neighbours tell. Round
- * such a node smoothness is asked between one sharp curve and the next; a sharp curve that ends
- * where no other goes on fades out there.
+ * not known it is estimated from the directions of the curves, outward as the neighbours tell.
+ * Round such a node smoothness is asked between one sharp curve and the next; a sharp curve that
+ * ends where no other goes on fades out there.
  *
  * `options` may be null (defaults); `report` may be null. On success *surface is the result, to be
  * given to wsk_surface_free; on failure it is untouched. */
-wsk_status wsk_build(const wsk_curve* curves, size_t curve_count, const wsk_options* options,
-                     wsk_surface** surface, wsk_report* report);
+WSK_API wsk_status wsk_build(const wsk_curve* curves, size_t curve_count,
+                             const wsk_options* options, wsk_surface** surface, wsk_report* report);
 
 /* A triangle mesh of the caller's, some of whose vertices are fixed. */
 typedef struct wsk_mesh {
@@ -382,11 +402,12 @@ typedef struct wsk_mesh {
 
 /* Smooths the caller's mesh: vertices that are not constrained move, vertices and triangles keep
  * their order and number. ITERATED and FAIR may flip edges between vertices that are not both
- * constrained, so a triangle may get other corners; and on a mesh without patches the normals bind FAIR
- * at open borders only, at constrained vertices inside they guide as for ITERATED. In the result every constrained vertex is of curve 0, and every triangle
- * of patch 0. Arguments and outcome as for wsk_build. */
-wsk_status wsk_smooth_mesh(const wsk_mesh* mesh, const wsk_options* options, wsk_surface** surface,
-                           wsk_report* report);
+ * constrained, so a triangle may get other corners; and on a mesh without patches the normals bind
+ * FAIR at open borders only, at constrained vertices inside they guide as for ITERATED. In the
+ * result every constrained vertex is of curve 0, and every triangle of patch 0. Arguments and
+ * outcome as for wsk_build. */
+WSK_API wsk_status wsk_smooth_mesh(const wsk_mesh* mesh, const wsk_options* options,
+                                   wsk_surface** surface, wsk_report* report);
 
 /* What a surface holds. The arrays belong to the surface and live until it is freed. */
 typedef struct wsk_surface_view {
@@ -401,28 +422,27 @@ typedef struct wsk_surface_view {
   const double* normals;        /* 3 a vertex: unit normals of the mesh */
   const double* mean_curvature; /* 1 a vertex: (k1 + k2) / 2, positive on a sphere, per length */
   const double* gaussian_curvature; /* 1 a vertex: k1 k2, per square length */
-  const uint32_t* vertex_curve;     /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
-                                   for a free vertex */
-  const double*
-      constraint_normals;         /* 3 a vertex: the input's unit normal there (on a crease the mean
-                                     of those known), 0 0 0 where free or not known */
-  const uint32_t* triangles;      /* 3 a triangle, counter-clockwise from outside */
-  const uint32_t* triangle_patch; /* 1 a triangle */
-  const uint32_t* curve_edges;    /* 2 an edge: the curves as resampled, in their direction */
+  const uint32_t* vertex_curve; /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
+                               for a free vertex */
+  const double* constraint_normals; /* 3 a vertex: the input's unit normal there (on a crease the
+                                       mean of those known), 0 0 0 where free or not known */
+  const uint32_t* triangles;        /* 3 a triangle, counter-clockwise from outside */
+  const uint32_t* triangle_patch;   /* 1 a triangle */
+  const uint32_t* curve_edges;      /* 2 an edge: the curves as resampled, in their direction */
   const uint32_t*
       curve_edge_curve; /* 1 an edge: the caller's curve; both null for a caller's mesh */
 } wsk_surface_view;
 
 /* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is
    written. A null surface gives an empty view; a null view is left alone. */
-void wsk_surface_get_view(const wsk_surface* surface, wsk_surface_view* view, size_t size);
+WSK_API void wsk_surface_get_view(const wsk_surface* surface, wsk_surface_view* view, size_t size);
 
 /* Gives the memory back through the allocator that it came from. Null is allowed. */
-void wsk_surface_free(wsk_surface* surface);
+WSK_API void wsk_surface_free(wsk_surface* surface);
 
 /* The version of the library linked in, "major.minor.patch"; compare with WIRESKIN_VERSION_STRING.
  */
-const char* wsk_version_string(void);
+WSK_API const char* wsk_version_string(void);
 
 #ifdef __cplusplus
 }
