@@ -30,7 +30,7 @@ INPUT is a network of curves with surface normals:
 Curves meet where they share a vertex. A curve is closed if its last index repeats its first.
 Boundary curves are those where the surface ends. Normals point to the outer side.
 
-OUTPUT is the surface:
+OUTPUT is the surface; -o may be repeated:
   .obj   positions, normals, a group patch_K for each patch
   .ply   binary: positions, normals, mean curvature, the patch of each triangle
   .stl   binary: triangles
@@ -55,7 +55,8 @@ options:
                      written too, with the place of the fault, if no surface can be built from
                      a network that could be read
   --image FILE.png   write a shaded picture with isophote stripes and the curves
-  --up x|y|z         the axis that points up in the picture (default: z)
+  --html FILE.html   write a page that shows the result in any browser: to be turned, lit, measured
+  --up x|y|z         the axis that points up in picture and page (default: z)
   --quiet            no progress, no summary
   --help             print this
   --version          print the version
@@ -165,7 +166,7 @@ bool take_option(Words& words, Arguments& arguments) {
   } else if (words.is_flag("--quiet")) {
     arguments.quiet = true;
   } else if (words.is("-o")) {
-    arguments.output = words.value();
+    arguments.outputs.push_back(words.value());
   } else if (words.is("--spacing")) {
     arguments.spacing = length_of("--spacing", words.value());
   } else if (words.is("--smooth")) {
@@ -181,6 +182,8 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.report = words.value();
   } else if (words.is("--image")) {
     arguments.image = words.value();
+  } else if (words.is("--html")) {
+    arguments.html = words.value();
   } else {
     return false;
   }
@@ -196,19 +199,24 @@ bool same_file(const std::string& a, const std::string& b) {
 
 void check_files(const Arguments& arguments) {
   if (arguments.input.empty()) wrong_usage("no input file");
-  if (arguments.output.empty()) wrong_usage("no output file, give one with -o");
-  const std::string extension = extension_of(arguments.output);
-  if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
+  if (arguments.outputs.empty()) wrong_usage("no output file, give one with -o");
+  for (const std::string& output : arguments.outputs) {
+    const std::string extension = extension_of(output);
+    if (extension == ".obj" || extension == ".ply" || extension == ".stl") continue;
     wrong_usage("unknown output format " + in_quotes(extension) +
                 ", known are .obj, .ply and .stl");
   }
   if (!arguments.image.empty() && extension_of(arguments.image) != ".png") {
     wrong_usage("--image writes PNG, the name must end in .png");
   }
-  const std::string files[] = {arguments.input, arguments.output, arguments.report,
-                               arguments.image};
-  for (size_t i = 0; i < 4; ++i) {
-    for (size_t k = i + 1; k < 4; ++k) {
+  if (!arguments.html.empty() && extension_of(arguments.html) != ".html") {
+    wrong_usage("--html writes a page, the name must end in .html");
+  }
+  std::vector<std::string> files = {arguments.input, arguments.report, arguments.image,
+                                    arguments.html};
+  files.insert(files.end(), arguments.outputs.begin(), arguments.outputs.end());
+  for (size_t i = 0; i < files.size(); ++i) {
+    for (size_t k = i + 1; k < files.size(); ++k) {
       if (files[i].empty() || files[k].empty() || !same_file(files[i], files[k])) continue;
       wrong_usage("two of the files are the same: " + in_quotes(files[k]));
     }

@@ -12,15 +12,16 @@ namespace wireskin_cli {
 
 struct Arguments {
   std::string input;
-  std::string output;
-  std::string report;  // "" for none, like image
+  std::vector<std::string> outputs;  // at least one
+  std::string report;                // "" for none, like image
   std::string image;
+  std::string html;
   double spacing = 0.0;  // 0: the library's default
   wsk_smoothing smoothing = WSK_SMOOTHING_DEFAULT;
   double noise = 0.0;
   double soft = 0.0;
   wsk_method method = WSK_METHOD_FAIR;
-  int up_axis = 2;  // of the picture: 0, 1, 2 for x, y, z
+  int up_axis = 2;  // of picture and page: 0, 1, 2 for x, y, z
   bool quiet = false;
   bool help = false;
   bool version = false;

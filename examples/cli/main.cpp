@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "read_network.h"
 #include "report_json.h"
 #include "write_mesh.h"
+#include "write_page.h"
 
 namespace wireskin_cli {
 
@@ -34,12 +36,17 @@ static void write_failure_report(const Arguments& arguments, const wsk_report& r
 static void write_outputs(const Arguments& arguments, const Network& network,
                           const wsk_surface_view& surface, const wsk_report& report) {
   OutputFiles files;
-  files.add(arguments.output, mesh_bytes(surface, arguments.output));
+  for (const std::string& output : arguments.outputs) {
+    files.add(output, mesh_bytes(surface, output));
+  }
   if (!arguments.image.empty()) {
     files.add(arguments.image, png_bytes(draw_picture(surface, network, arguments.up_axis)));
   }
-  if (!arguments.report.empty()) {
-    files.add(arguments.report, report_json(arguments, report));
+  const std::string json = report_json(arguments, report);
+  if (!arguments.report.empty()) files.add(arguments.report, json);
+  if (!arguments.html.empty()) {
+    const std::string title = std::filesystem::path(arguments.input).filename().string();
+    files.add(arguments.html, page_bytes({surface, network, title, json, arguments.up_axis}));
   }
   if (cancel_wanted()) throw Failure(arguments.input + ": cancelled");
   files.commit();
@@ -62,8 +69,8 @@ static void run(const Arguments& arguments) {
   write_outputs(arguments, network, surface, result.report);
   if (arguments.quiet) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  std::printf("%s: %lu vertices, %lu triangles, %lu patches, %.2f s\n", arguments.output.c_str(),
-              static_cast<unsigned long>(surface.vertex_count),
+  std::printf("%s: %lu vertices, %lu triangles, %lu patches, %.2f s\n",
+              arguments.outputs.front().c_str(), static_cast<unsigned long>(surface.vertex_count),
               static_cast<unsigned long>(surface.triangle_count),
               static_cast<unsigned long>(surface.patch_count), seconds.count());
 }

@@ -3,7 +3,10 @@
 #include <csignal>
 #include <cstdio>
 
-#ifdef _WIN32
+#if defined(__EMSCRIPTEN__)
+#include <emscripten.h>
+#include <unistd.h>
+#elif defined(_WIN32)
 #include <io.h>
 #else
 #include <unistd.h>
@@ -46,6 +49,14 @@ ProgressLine::ProgressLine(bool wanted)
 void ProgressLine::set(wsk_stage stage, double fraction) {
   stage_ = stage;
   fraction_ = fraction;
+#ifdef __EMSCRIPTEN__
+  // There is no terminal: the page that runs the command hears of it.
+  EM_ASM(
+      {
+        if (Module.onProgress) Module.onProgress(UTF8ToString($0), $1);
+      },
+      wsk_stage_name(stage), fraction);
+#endif
   refresh();
 }
 

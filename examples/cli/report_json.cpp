@@ -101,7 +101,7 @@ std::string report_json(const Arguments& arguments, const wsk_report& report) {
   JsonObject json("");
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
-  json.text("output", arguments.output);
+  json.text("output", arguments.outputs.empty() ? "" : arguments.outputs.front());
   json.text("method", method_name(arguments.method));
   json.text("status", wsk_status_name(report.status));
   json.text("stage", wsk_stage_name(report.stage));

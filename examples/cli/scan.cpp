@@ -1,10 +1,11 @@
 #include "scan.h"
 
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+
+#include "float_chars.h"
 
 namespace wireskin_cli {
 
@@ -52,7 +53,7 @@ static std::string_view without_plus(std::string_view text) {
 bool parse_double(std::string_view text, double* value) {
   text = without_plus(text);
   const char* end = text.data() + text.size();
-  const std::from_chars_result result = std::from_chars(text.data(), end, *value);
+  const std::from_chars_result result = from_chars(text.data(), end, *value);
   if (result.ec == std::errc::result_out_of_range && result.ptr == end) {
     // Too near zero is zero; too large is no double.
     *value = 0.0;
@@ -64,13 +65,13 @@ bool parse_double(std::string_view text, double* value) {
 bool parse_integer(std::string_view text, int64_t* value) {
   text = without_plus(text);
   const char* end = text.data() + text.size();
-  const std::from_chars_result result = std::from_chars(text.data(), end, *value);
+  const std::from_chars_result result = from_chars(text.data(), end, *value);
   return result.ec == std::errc() && result.ptr == end;
 }
 
 void append_double(std::string& text, double value) {
   char digits[32];
-  const std::to_chars_result result = std::to_chars(digits, digits + sizeof digits, value);
+  const std::to_chars_result result = to_chars(digits, digits + sizeof digits, value);
   text.append(digits, result.ptr);
 }
 

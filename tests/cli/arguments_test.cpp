@@ -26,7 +26,7 @@ TEST_CASE("everything given") {
       parse_arguments({"--spacing", "0.5", "in.net", "-o", "out.PLY", "--method=triharmonic",
                        "--report=r.json", "--image", "i.png", "--quiet", "--up", "y"});
   CHECK(arguments.input == "in.net");
-  CHECK(arguments.output == "out.PLY");
+  CHECK(arguments.outputs == std::vector<std::string>{"out.PLY"});
   CHECK(arguments.spacing == 0.5);
   CHECK(arguments.method == WSK_METHOD_TRIHARMONIC);
   CHECK(arguments.report == "r.json");

@@ -38,7 +38,7 @@ static wsk_report filled_report() {
 TEST_CASE("every value under its name") {
   Arguments arguments;
   arguments.input = "a \"b\"\\c.net";
-  arguments.output = "x.ply";
+  arguments.outputs = {"x.ply"};
   auto values = JsonReader(report_json(arguments, filled_report())).values;
   CHECK(values["version"] == wsk_version_string());
   CHECK(values["input"] == arguments.input);
