@@ -237,7 +237,9 @@ string(APPEND output "${public_header}" "
 ${system_lines}
 /* What the includer's macros and floating-point settings were, they are again at the end. */
 ${save_macros}#if defined(__clang__)
+#ifndef __wasm__ /* which has no such setting to save */
 #pragma float_control(push)
+#endif
 #elif defined(__GNUC__)
 #pragma GCC push_options
 #if __GNUC__ >= 11 /* drops stores of small structs passed by value, see CMakeLists.txt */
@@ -264,7 +266,9 @@ foreach(file IN LISTS order)
 endforeach()
 string(APPEND output "
 #if defined(__clang__)
+#ifndef __wasm__
 #pragma float_control(pop)
+#endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
 #elif defined(_MSC_VER)

@@ -1,0 +1,98 @@
+# Who can link the library: C programs by tcc, gcc in strict C89, musl and mingw; a WebAssembly module
+# that imports nothing; and how large it is for a Cortex-M4. Toolchains that are not here are skipped by
+# name.
+cmake_minimum_required(VERSION 3.25)
+set(user ${ROOT}/tests/embed/c89_user.c)
+set(implementation ${ROOT}/tests/embed/implementation.cpp)
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${WORK}/wireskin.h -P ${ROOT}/single_include/amalgamate.cmake
+  COMMAND_ERROR_IS_FATAL ANY)
+set(library_flags -std=c++17 -O1 -fno-exceptions -fno-rtti -fno-threadsafe-statics -I${WORK})
+
+# Sets `found` where all programs are here, else says what is missing.
+function(look_for name)
+  set(found TRUE PARENT_SCOPE)
+  foreach(program IN LISTS ARGN)
+    set(path path-NOTFOUND)
+    find_program(path ${program} NO_CACHE PATHS /usr/lib/wine)
+    if(NOT path)
+      message(STATUS "${name}: skipped, ${program} is not here")
+      set(found FALSE PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+endfunction()
+
+function(must name)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(result EQUAL 0)
+    message(STATUS "${name}: passed")
+  else()
+    message(SEND_ERROR "${name}: result ${result}\n${text}")
+  endif()
+endfunction()
+
+# C programs on this machine, each by a compiler of its own.
+execute_process(COMMAND g++ ${library_flags} -c ${implementation} -o ${WORK}/library.o
+                COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ar rcs ${WORK}/libwireskin.a ${WORK}/library.o COMMAND_ERROR_IS_FATAL ANY)
+foreach(compiler "tcc" "gcc -std=c89 -pedantic-errors" "musl-gcc -static")
+  separate_arguments(words UNIX_COMMAND "${compiler}")
+  list(GET words 0 program)
+  look_for("${compiler}" ${program})
+  if(NOT found)
+    continue()
+  endif()
+  execute_process(COMMAND ${words} -I${WORK} ${user} ${WORK}/libwireskin.a -lm -o ${WORK}/user
+                  RESULT_VARIABLE result ERROR_VARIABLE text)
+  if(NOT result EQUAL 0)
+    message(SEND_ERROR "${compiler}: does not link\n${text}")
+    continue()
+  endif()
+  must("${compiler}" ${WORK}/user)
+endforeach()
+
+look_for(mingw x86_64-w64-mingw32-g++ x86_64-w64-mingw32-gcc wine64)
+if(found)
+  find_program(wine wine64 PATHS /usr/lib/wine)
+  set(ENV{WINEDEBUG} -all)
+  set(ENV{WINEPREFIX} ${WORK}/wine)
+  execute_process(COMMAND x86_64-w64-mingw32-g++ ${library_flags} -c ${implementation}
+                          -o ${WORK}/library_windows.o COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND x86_64-w64-mingw32-gcc -I${WORK} ${user} ${WORK}/library_windows.o
+                          -o ${WORK}/user.exe COMMAND_ERROR_IS_FATAL ANY)
+  must("mingw" ${wine} ${WORK}/user.exe)
+endif()
+
+# A module without a host: nothing is imported, a page or a script may instantiate it with {}.
+look_for(wasm clang++-14 clang-14 node)
+if(found AND NOT EXISTS /usr/include/wasm32-wasi)
+  message(STATUS "wasm: skipped, wasi-libc is not here")
+elseif(found)
+  set(wasm_flags --target=wasm32-wasi -mexec-model=reactor -Wl,--export=wsk_build
+      -Wl,--export=malloc -Wl,--export=free -Wl,--export=wsk_version_string -Wl,-s)
+  execute_process(COMMAND clang++-14 --target=wasm32-wasi ${library_flags} -Oz -c ${implementation}
+                          -o ${WORK}/library_wasm.o COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND clang-14 ${wasm_flags} ${WORK}/library_wasm.o -lm -o ${WORK}/wireskin.wasm
+                  COMMAND_ERROR_IS_FATAL ANY)
+  must("wasm without imports" node ${ROOT}/tests/embed/no_imports.mjs ${WORK}/wireskin.wasm)
+  file(SIZE ${WORK}/wireskin.wasm bytes)
+  message(STATUS "wasm at -Oz: ${bytes} bytes")
+endif()
+
+look_for("Cortex-M4" arm-none-eabi-g++ arm-none-eabi-size)
+if(found)
+  execute_process(COMMAND arm-none-eabi-g++ ${library_flags} -Os -mcpu=cortex-m4 -mthumb
+                          -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffunction-sections
+                          -c ${implementation} -o ${WORK}/library_m4.o
+                  RESULT_VARIABLE result ERROR_VARIABLE text)
+  if(NOT result EQUAL 0)
+    message(SEND_ERROR "Cortex-M4: does not compile\n${text}")
+  else()
+    execute_process(COMMAND arm-none-eabi-size ${WORK}/library_m4.o OUTPUT_VARIABLE text)
+    string(REGEX MATCH "\n *([0-9]+)" text "${text}")
+    message(STATUS "Cortex-M4 at -Os: ${CMAKE_MATCH_1} bytes of text")
+  endif()
+endif()
