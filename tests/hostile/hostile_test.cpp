@@ -1,0 +1,145 @@
+// Whatever comes in, a valid surface or a documented status comes out, never NaN, never late; and
+// the unit of length does not matter, from 1e-150 to 1e150.
+//
+// Each case runs at every scale, mirrored and with its axes and curves in another order, by a
+// method that changes from run to run. WIRESKIN_FULL=1 runs all, without it a part.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "hostile/families.h"
+#include "support/call.h"
+
+using hostile::Case;
+using scenes::Call;
+using scenes::Curve;
+using scenes::Result;
+
+namespace {
+
+constexpr int k_scales[] = {0, -498, -300, -151, -30, 10, 300, 498};  // powers of two
+
+// x, y, z in another order, mirrored where `turn` is odd.
+void turn_axes(std::vector<Curve>& curves, int turn) {
+  const size_t shift = static_cast<size_t>(turn / 2);
+  for (Curve& curve : curves) {
+    for (std::vector<double>* values : {&curve.positions, &curve.normals}) {
+      for (size_t i = 0; i + 2 < values->size(); i += 3) {
+        const double v[3] = {(*values)[i], (*values)[i + 1], (*values)[i + 2]};
+        for (size_t k = 0; k < 3; ++k) (*values)[i + k] = v[(k + shift) % 3];
+        if (turn % 2 == 1) (*values)[i] = -(*values)[i];
+      }
+    }
+  }
+}
+
+struct Watch {
+  std::chrono::steady_clock::time_point end =
+      std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  bool late = false;
+};
+
+int32_t is_late(void* user) {
+  Watch* watch = static_cast<Watch*>(user);
+  watch->late = watch->late || std::chrono::steady_clock::now() > watch->end;
+  return watch->late ? 1 : 0;
+}
+
+Call run(const Case& hostile_case, wsk_method method, int scale) {
+  scenes::Scene scene;
+  scene.curves = hostile_case.curves;
+  for (Curve& curve : scene.curves) {
+    for (double& x : curve.positions) x = std::ldexp(x, scale);
+  }
+  wsk_options options;
+  wsk_options_init(&options, sizeof options);
+  options.method = method;
+  Watch watch;
+  options.cancel = is_late;
+  options.cancel_user = &watch;
+  // A coarse surface: what is looked for hangs on the shape, not on the number of vertices.
+  double low[3], high[3];
+  std::fill(low, low + 3, HUGE_VAL);
+  std::fill(high, high + 3, -HUGE_VAL);
+  for (const Curve& curve : scene.curves) {
+    for (size_t i = 0; i < curve.positions.size(); ++i) {
+      low[i % 3] = std::min(low[i % 3], curve.positions[i]);
+      high[i % 3] = std::max(high[i % 3], curve.positions[i]);
+    }
+  }
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  options.spacing =
+      extent > 0 && std::isfinite(extent) ? std::ldexp(1.0, std::ilogb(extent) - 4) : 0.0;
+  const Call call = scenes::watched_build(scenes::curves_of(scene), options);
+  CHECK_FALSE(watch.late);
+  return call;
+}
+
+void check_surface(const Result& result) {
+  for (const double x : result.positions) REQUIRE(std::isfinite(x));
+  for (const double x : result.normals) REQUIRE(std::isfinite(x));
+  for (const double x : result.mean_curvature) REQUIRE(std::isfinite(x));
+  const size_t n = result.positions.size() / 3;
+  REQUIRE(!result.triangles.empty());
+  std::set<std::pair<uint32_t, uint32_t>> edges;
+  for (size_t h = 0; h < result.triangles.size(); ++h) {
+    const uint32_t a = result.triangles[h];
+    const uint32_t b = result.triangles[h % 3 == 2 ? h - 2 : h + 1];
+    REQUIRE(a < n);
+    REQUIRE(a != b);
+    REQUIRE(edges.emplace(a, b).second);  // an oriented manifold passes each half-edge once
+  }
+}
+
+}  // namespace
+
+TEST_CASE("hostile networks end in a surface or a status, the same at every scale") {
+  const bool full = std::getenv("WIRESKIN_FULL") != nullptr;
+  std::map<std::string, int> outcomes;
+  int runs = 0;
+  for (const Case& base : hostile::all()) {
+    CAPTURE(base.name);
+    for (int turn = 0; turn < (full ? 6 : 1); ++turn) {
+      CAPTURE(turn);
+      for (const bool backwards : {false, true}) {
+        if (backwards && !full) continue;
+        Case changed = base;
+        turn_axes(changed.curves, turn);
+        if (backwards) std::reverse(changed.curves.begin(), changed.curves.end());
+        const wsk_method methods[] = {WSK_METHOD_FAIR, WSK_METHOD_STANKO, WSK_METHOD_ITERATED};
+        const wsk_method method = methods[runs / 8 % 3];
+        CAPTURE(method);
+        Call reference = {};
+        for (const int scale : k_scales) {
+          CAPTURE(scale);
+          Call call = run(changed, method, scale);
+          ++runs;
+          ++outcomes[wsk_status_name(call.status)];
+          REQUIRE(std::string(wsk_status_name(call.status)) != "unknown");
+          if (call.status == WSK_OK) check_surface(call.result);
+          if (scale == 0) {
+            reference = call;
+          } else if (call.status == WSK_OK && reference.status == WSK_OK) {
+            for (double& x : call.result.positions) x = std::ldexp(x, -scale);
+            for (double& x : call.result.mean_curvature) x = std::ldexp(x, scale);
+            CHECK(hash_of(call.result) == hash_of(reference.result));
+          } else {
+            // Only numbers that leave the doubles' range may end differently.
+            const bool at_edge =
+                call.status == WSK_ERROR_INFINITE || reference.status == WSK_ERROR_INFINITE;
+            CHECK((call.status == reference.status || at_edge));
+          }
+        }
+      }
+    }
+  }
+  MESSAGE(runs << " runs");
+  for (const auto& [name, count] : outcomes) MESSAGE(name << ": " << count);
+  CHECK(outcomes["ok"] > runs / 10);
+  CHECK(outcomes.size() > 8);
+}
