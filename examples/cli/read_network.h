@@ -10,10 +10,9 @@
 //           1 (boundary), one 0 or 1 (closed), the number of nodes, their samples from 1, their
 //           names, the number of samples and rows length tx ty tz nx ny nz.
 // .obj      Wavefront: v, vn, l, curv (see obj_freeform.h), p; f where no curve is given. The i-th
-// vn
-//           belongs to the i-th v where there are as many, else normals are those that faces name.
-//           Curves that stand under a g or o whose name contains "boundary" are boundary curves,
-//           under one with "sharp" creases. The rest is passed over.
+//           vn belongs to the i-th v where there are as many and no face says otherwise, else
+//           normals are those that faces name. Curves under a g or o whose name contains "boundary"
+//           are boundary curves, under one with "sharp" creases. The rest is passed over.
 // .ply      vertices with x y z and maybe nx ny nz, the element edge with vertex1 and vertex2, else
 //           faces as loops, else points.
 // .csv ...  tables: x y z, then maybe nx ny nz, then maybe a number of the curve; or columns as a

@@ -208,7 +208,11 @@ static void take_named_normals(ObjState& state) {
 
 static void take_normals(const std::string& file, ObjState& state) {
   if (state.normals.empty()) return;
-  if (state.normal_count() == state.vertex_count()) {
+  // Equal counts may be chance: faces that say otherwise know better.
+  const bool in_order =
+      std::all_of(state.named_normals.begin(), state.named_normals.end(),
+                  [](const NamedNormal& named) { return named.vertex == named.normal; });
+  if (state.normal_count() == state.vertex_count() && in_order) {
     state.network.normals = std::move(state.normals);
   } else if (!state.named_normals.empty()) {
     take_named_normals(state);

@@ -118,6 +118,11 @@ TEST_CASE("normals that faces name, where there is not one for each vertex") {
   CHECK(network.has_normal == std::vector<uint8_t>{1, 0, 1, 1, 1, 1});
   CHECK(network.normals[3 * 4] == 1.0);
   CHECK(network.normals[3 * 1] == 0.0);
+  // As many as vertices, but in another order.
+  const Network swapped = read_obj("f.obj",
+                                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 1 0 0\nvn 0 0 1\nvn 0 1 "
+                                   "0\nvn 0 0 -1\nf 1//2 2//1 3//3 4//4\n");
+  CHECK(swapped.normals == std::vector<double>{0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, -1});
   CHECK(complaint(k_square + "vn 0 0 1\nf 1//1 2//1 3//2 4//1\n") ==
         "f.obj:8: normal index 2 is out of range, the file has 1 normals, which count from 1 in "
         "OBJ");
