@@ -2,12 +2,10 @@
 // messages, and throws a ReadFailure that names the line of whatever is wrong.
 //
 // .net      T. Stanko's format: the number of vertices, a row x y z nx ny nz for each, the number
-// of
-//           curves, then for each a line 0 or 1 (1: the surface ends here) and a line of indices
+//           of curves, then for each a line 0 or 1 (1: the surface ends here) and a line of indices
 //           from 0. Closed if the last index repeats the first, as in OBJ.
 // .rawnet   his format of raw measurements, see RawCurve: the number of curves; for each a line 0
-// or
-//           1 (boundary), one 0 or 1 (closed), the number of nodes, their samples from 1, their
+//           or 1 (boundary), one 0 or 1 (closed), the number of nodes, their samples from 1, their
 //           names, the number of samples and rows length tx ty tz nx ny nz.
 // .obj      Wavefront: v, vn, l, curv (see obj_freeform.h), p; f where no curve is given. The i-th
 //           vn belongs to the i-th v where there are as many and no face says otherwise, else
@@ -22,8 +20,7 @@
 // .curve    Y. Zhuang, M. Zou et al., cycle discovery, 2013: the number of curves; for each the
 //           number of points and two more integers, then rows x y z.
 // .contour  Z. Huang, M. Zou, N. Carr, T. Ju, 2017: the number of planes; for each its equation,
-// the
-//           numbers of vertices and edges, vertices, edges with two labels.
+//           the numbers of vertices and edges, vertices, edges with two labels.
 // .curf     v, e with two indices from 1, tangents, which are passed over.
 #pragma once
 
