@@ -19,16 +19,31 @@ constexpr const char* k_help = R"(wireskin - a smooth surface through a network 
 
 usage: wireskin [options] INPUT -o OUTPUT
 
-INPUT is a network of curves with surface normals:
-  .net   the number of vertices, a row x y z nx ny nz for each, the number of curves, and for
-         each curve a line 0 or 1 (1: boundary) and a line of vertex indices from 0
-  .obj   v, vn (one for each v, in the same order) and l, each of which is one curve with any
-         number of indices; all else is passed over. Curves after a g or o whose name contains
-         "boundary" (in upper or lower case), up to the next g or o, are boundary curves; "sharp"
-         makes them creases, smooth on each side only. A vertex has one vn, creases have two
-         normals: theirs are taken as unknown, and vn holds for the smooth curves that end there.
-Curves meet where they share a vertex. A curve is closed if its last index repeats its first.
-Boundary curves are those where the surface ends. Normals point to the outer side.
+INPUT is a network of curves, "-" for the standard input:
+  .net      the number of vertices, a row x y z nx ny nz for each, the number of curves, and for
+            each curve a line 0 or 1 (1: boundary) and a line of vertex indices from 0
+  .obj      v, and vn for each v in the same order; l, each of which is one curve with any number
+            of indices; curv, B-splines and Bezier curves of any degree, rational or not. Without
+            any of these f with more than three corners are loops. Curves after a g or o whose name
+            contains "boundary" (in upper or lower case), up to the next g or o, are boundary
+            curves; "sharp" makes them creases, smooth on each side only. A vertex has one vn,
+            creases have two normals: theirs are taken as unknown, and vn holds for the smooth
+            curves that end there.
+  .ply      text or binary: vertices with x y z nx ny nz, the element edge with vertex1, vertex2
+            (and maybe boundary, sharp), or else faces as loops
+  .csv .tsv .txt .dat .asc
+            a row x y z or x y z nx ny nz for each sample, maybe followed by a number of the curve,
+            or columns named in the first line: x y z nx ny nz curve boundary sharp. Columns stand
+            between semicolons, tabs, commas or blanks; with the first two a comma may be the
+            decimal point. Without a column "curve", blank lines or lines "CURVE name" separate
+            curves. Samples whose coordinates are all equal are one point.
+  .curves .curve .contour .curf
+            polylines of CASSIE, of cycle discovery, of contours in planes, with tangents
+What a file is, is seen from its content where the extension cannot be true. Files of measured
+tangents (.rawnet) and of points without curves (.xyz) are recognised, but not surfaced yet.
+Curves meet where they share a vertex. A curve is closed if its last vertex repeats its first.
+Boundary curves are those where the surface ends. Normals point to the outer side; all curves but
+creases need them.
 
 OUTPUT is the surface; -o may be repeated:
   .obj   positions, normals, a group patch_K for each patch
@@ -52,10 +67,11 @@ options:
   --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
                      smoothed away
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
-                     written too, with the place of the fault, if no surface can be built from
-                     a network that could be read
+                     written too, with the place of the fault, if the input cannot be read or no
+                     surface can be built from it
   --image FILE.png   write a shaded picture with isophote stripes and the curves
   --html FILE.html   write a page that shows the result in any browser: to be turned, lit, measured
+  --curves           write the curves too: as l in .obj, as the element edge in .ply
   --up x|y|z         the axis that points up in picture and page (default: z)
   --quiet            no progress, no summary
   --help             print this
@@ -165,6 +181,8 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.version = true;
   } else if (words.is_flag("--quiet")) {
     arguments.quiet = true;
+  } else if (words.is_flag("--curves")) {
+    arguments.curves = true;
   } else if (words.is("-o")) {
     arguments.outputs.push_back(words.value());
   } else if (words.is("--spacing")) {
@@ -205,6 +223,9 @@ void check_files(const Arguments& arguments) {
     if (extension == ".obj" || extension == ".ply" || extension == ".stl") continue;
     wrong_usage("unknown output format " + in_quotes(extension) +
                 ", known are .obj, .ply and .stl");
+  }
+  if (arguments.curves && extension == ".stl") {
+    wrong_usage("--curves needs .obj or .ply, an STL file holds triangles only");
   }
   if (!arguments.image.empty() && extension_of(arguments.image) != ".png") {
     wrong_usage("--image writes PNG, the name must end in .png");

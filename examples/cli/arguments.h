@@ -25,6 +25,7 @@ struct Arguments {
   bool quiet = false;
   bool help = false;
   bool version = false;
+  bool curves = false;  // write the curves beside the mesh
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

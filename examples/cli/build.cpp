@@ -3,6 +3,8 @@
 #include <chrono>
 #include <vector>
 
+#include "scan.h"
+
 namespace wireskin_cli {
 
 // Copies of the samples of all curves, one after the other, because the library wants the samples
@@ -19,14 +21,38 @@ static Samples gather_samples(const Network& network) {
     for (const uint32_t vertex : curve.vertices) {
       for (size_t k = 0; k < 3; ++k) {
         samples.positions.push_back(network.positions[3 * size_t{vertex} + k]);
-        if (!network.normals.empty()) {
+        if (!network.normals.empty()) {  // 0 0 0 where not known
           samples.normals.push_back(network.normals[3 * size_t{vertex} + k]);
         }
       }
-      samples.nodes.push_back(vertex);
+      samples.nodes.push_back(network.nodes.empty() ? vertex : network.nodes[vertex]);
     }
   }
   return samples;
+}
+
+static size_t known_normals(const Network& network, const NetworkCurve& curve) {
+  size_t known = 0;
+  for (const uint32_t vertex : curve.vertices) known += network.normal_known(vertex) ? 1 : 0;
+  return known;
+}
+
+// The library wants the normals of a curve all or none. False, and a report that names the place,
+// if a smooth curve has some only.
+static bool normals_are_whole(const Network& network, wsk_report& report) {
+  for (size_t c = 0; c < network.curves.size(); ++c) {
+    const NetworkCurve& curve = network.curves[c];
+    const size_t known = known_normals(network, curve);
+    if (curve.sharp || known == 0 || known == curve.vertices.size()) continue;
+    size_t sample = 0;
+    while (network.normal_known(curve.vertices[sample])) ++sample;
+    report.status = WSK_ERROR_MISSING_NORMALS;
+    report.sentence = "this sample has no normal, though others of its curve have one";
+    report.curve = static_cast<uint32_t>(c);
+    report.sample = static_cast<uint32_t>(sample);
+    return false;
+  }
+  return true;
 }
 
 static std::vector<wsk_curve> curves_of(const Network& network, const Samples& samples) {
@@ -36,7 +62,9 @@ static std::vector<wsk_curve> curves_of(const Network& network, const Samples& s
     wsk_curve c = {};
     c.sample_count = curve.vertices.size();
     c.positions = samples.positions.data() + 3 * first;
-    if (!samples.normals.empty() && !curve.sharp) c.normals = samples.normals.data() + 3 * first;
+    if (!curve.sharp && known_normals(network, curve) != 0) {
+      c.normals = samples.normals.data() + 3 * first;
+    }
     c.nodes = samples.nodes.data() + first;
     c.closed = curve.closed ? 1 : 0;
     c.boundary = curve.boundary ? 1 : 0;
@@ -71,6 +99,7 @@ BuildResult build_surface(const Network& network, const Arguments& arguments,
   const std::vector<wsk_curve> curves = curves_of(network, samples);
   BuildResult result;
   wsk_report_init(&result.report, sizeof result.report);
+  if (!normals_are_whole(network, result.report)) return result;
   wsk_surface* surface = nullptr;
   if (wsk_build(curves.data(), curves.size(), &options, &surface, &result.report) == WSK_OK) {
     result.surface.reset(surface);
@@ -78,8 +107,7 @@ BuildResult build_surface(const Network& network, const Arguments& arguments,
   return result;
 }
 
-// The line of the file that the place speaks of; 0 if there is none.
-static size_t line_of(const Network& network, const wsk_report& report) {
+size_t line_of(const Network& network, const wsk_report& report) {
   if (report.curve < network.curves.size()) {
     const NetworkCurve& curve = network.curves[report.curve];
     if (report.sample >= curve.vertices.size()) return curve.line;
@@ -98,6 +126,9 @@ std::string failure_line(const std::string& file, const Network& network,
     place += (place.empty() ? "" : ", ") + std::string(thing) + " " + std::to_string(index);
   };
   add_place("curve", report.curve);
+  if (report.curve < network.curves.size() && !network.curves[report.curve].name.empty()) {
+    place += " (" + in_quotes(network.curves[report.curve].name) + ")";
+  }
   add_place("sample", report.sample);
   add_place("node", report.node);
   add_place("patch", report.patch);

@@ -29,6 +29,9 @@ struct BuildCallbacks {
 BuildResult build_surface(const Network& network, const Arguments& arguments,
                           const BuildCallbacks& callbacks);
 
+// The line of the file that the place of the report speaks of; 0 if there is none.
+size_t line_of(const Network& network, const wsk_report& report);
+
 // "FILE: curve 3, sample 17: the normal has zero length (line 21)".
 std::string failure_line(const std::string& file, const Network& network, const wsk_report& report);
 

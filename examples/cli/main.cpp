@@ -10,26 +10,39 @@
 #include "build.h"
 #include "failure.h"
 #include "files.h"
+#include "hints.h"
 #include "picture.h"
 #include "png.h"
 #include "progress.h"
 #include "read_network.h"
 #include "report_json.h"
+#include "scan.h"
 #include "write_mesh.h"
 #include "write_page.h"
 
 namespace wireskin_cli {
 
-// The report of a build that failed. What went wrong there is said before what goes wrong here.
-static void write_failure_report(const Arguments& arguments, const wsk_report& report,
+// The report of what failed. What went wrong there is said before what goes wrong here.
+static void write_failure_report(const Arguments& arguments, const std::string& json,
                                  const std::string& line) {
   if (arguments.report.empty()) return;
   try {
     OutputFiles files;
-    files.add(arguments.report, report_json(arguments, report));
+    files.add(arguments.report, json);
     files.commit();
   } catch (const Failure& failure) {
     throw Failure(line + "; " + failure.what());
+  }
+}
+
+static Network read_input(const Arguments& arguments) {
+  try {
+    Network network = read_network(arguments.input);
+    require_surfaceable(arguments.input, network);
+    return network;
+  } catch (const ReadFailure& failure) {
+    write_failure_report(arguments, read_failure_json(arguments, failure), failure.what());
+    throw;
   }
 }
 
@@ -37,7 +50,7 @@ static void write_outputs(const Arguments& arguments, const Network& network,
                           const wsk_surface_view& surface, const wsk_report& report) {
   OutputFiles files;
   for (const std::string& output : arguments.outputs) {
-    files.add(output, mesh_bytes(surface, output));
+    files.add(output, mesh_bytes(surface, output, arguments.curves));
   }
   if (!arguments.image.empty()) {
     files.add(arguments.image, png_bytes(draw_picture(surface, network, arguments.up_axis)));
@@ -54,14 +67,16 @@ static void write_outputs(const Arguments& arguments, const Network& network,
 
 static void run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  const Network network = read_network(arguments.input);
+  const Network network = read_input(arguments);
   catch_signals();  // from here on; while a pipe is read, a signal may simply end the command
   ProgressLine progress(!arguments.quiet);
   const BuildResult result = build_surface(network, arguments, progress.callbacks());
   progress.clear();
   if (result.surface == nullptr) {
-    const std::string line = failure_line(arguments.input, network, result.report);
-    write_failure_report(arguments, result.report, line);
+    const std::string line = failure_line(arguments.input, network, result.report) +
+                             failure_hint(arguments, network, result.report);
+    const size_t place = line_of(network, result.report);
+    write_failure_report(arguments, report_json(arguments, result.report, place), line);
     throw Failure(line);
   }
   wsk_surface_view surface;
@@ -70,7 +85,8 @@ static void run(const Arguments& arguments) {
   if (arguments.quiet) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::printf("%s: %lu vertices, %lu triangles, %lu patches, %.2f s\n",
-              arguments.outputs.front().c_str(), static_cast<unsigned long>(surface.vertex_count),
+              printable(arguments.outputs.front()).c_str(),
+              static_cast<unsigned long>(surface.vertex_count),
               static_cast<unsigned long>(surface.triangle_count),
               static_cast<unsigned long>(surface.patch_count), seconds.count());
 }
@@ -87,7 +103,8 @@ static int run_words(const std::vector<std::string>& words) {
     }
     return 0;
   } catch (const Failure& failure) {
-    std::fprintf(stderr, "%s\n", failure.what());
+    // Names of files come from outside and may hold anything; the message is one line.
+    std::fprintf(stderr, "%s\n", printable(failure.what()).c_str());
     return failure.exit_status();
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "wireskin: not enough memory\n");

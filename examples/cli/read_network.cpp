@@ -5,13 +5,61 @@
 
 namespace wireskin_cli {
 
-Network read_network(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension != ".net" && extension != ".obj") {
-    throw Failure(path + ": unknown format " + in_quotes(extension) + ", known are .net and .obj");
+Network read_network_bytes(const std::string& file, Format format, std::string bytes) {
+  if (format != Format::ply) require_text(file, bytes);
+  switch (format) {
+    case Format::net:
+      return read_net(file, bytes);
+    case Format::rawnet:
+      return read_rawnet(file, bytes);
+    case Format::obj:
+      return read_obj(file, bytes);
+    case Format::ply:
+      return read_ply(file, bytes);
+    case Format::table:
+      return read_table(file, bytes);
+    case Format::points:
+      return read_points(file, bytes);
+    case Format::curves:
+      return read_curves(file, bytes);
+    case Format::curve:
+      return read_curve(file, bytes);
+    case Format::contour:
+      return read_contour(file, bytes);
+    case Format::curf:
+      return read_curf(file, bytes);
+    case Format::none:
+      break;
   }
-  const std::string text = load_text(path);
-  return extension == ".net" ? read_net(path, text) : read_obj(path, text);
+  throw ReadFailure(k_unknown_format, file, 0,
+                    "the content is of no known format and neither is the extension " +
+                        in_quotes(extension_of(file)) + ", known are " + known_extensions());
+}
+
+Network read_network(const std::string& path) {
+  std::string bytes = load_bytes(path);
+  const std::string_view mark = "\xEF\xBB\xBF";
+  const size_t skipped = bytes.compare(0, 3, mark) == 0 ? 3 : 0;
+  const Format format = format_of(path, std::string_view(bytes).substr(skipped));
+  if (format == Format::none) require_text(path, bytes);
+  if (format == Format::ply) bytes.erase(0, skipped);
+  return read_network_bytes(path, format, std::move(bytes));
+}
+
+void require_surfaceable(const std::string& file, const Network& network) {
+  if (!network.raw_curves.empty()) {
+    throw ReadFailure(k_not_supported, file, 0,
+                      "measured tangents without positions (.rawnet) are not surfaced yet: "
+                      "integrate them to a .net first");
+  }
+  if (network.points.empty()) return;
+  const size_t line = network.vertex_lines[network.points[0]];
+  if (network.curves.empty()) {
+    throw ReadFailure(k_not_supported, file, 0,
+                      "points without curves, which are not surfaced yet: curves must be given");
+  }
+  throw ReadFailure(k_not_supported, file, line,
+                    "a point outside the curves, such points are not surfaced yet");
 }
 
 }  // namespace wireskin_cli

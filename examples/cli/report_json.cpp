@@ -75,15 +75,16 @@ class JsonObject {
   std::string text_;
 };
 
-std::string place_json(const wsk_report& report) {
+std::string place_json(const wsk_report& report, size_t line) {
   const bool known = report.curve != WSK_NONE || report.sample != WSK_NONE ||
-                     report.node != WSK_NONE || report.patch != WSK_NONE;
+                     report.node != WSK_NONE || report.patch != WSK_NONE || line != 0;
   if (!known) return "null";
   JsonObject place("  ");
   place.index("curve", report.curve);
   place.index("sample", report.sample);
   place.index("node", report.node);
   place.index("patch", report.patch);
+  place.member("line", line == 0 ? "null" : std::to_string(line));
   return place.close();
 }
 
@@ -95,22 +96,25 @@ std::string stages_json(const wsk_report& report) {
   return stages.close();
 }
 
-}  // namespace
+// What the command itself knows stands beside the report.
+struct Outcome {
+  const char* status;
+  const char* stage;
+  std::string sentence;  // "" for none
+  size_t line;
+};
 
-std::string report_json(const Arguments& arguments, const wsk_report& report) {
+std::string outcome_json(const Arguments& arguments, const wsk_report& report,
+                         const Outcome& outcome) {
   JsonObject json("");
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
   json.text("output", arguments.outputs.empty() ? "" : arguments.outputs.front());
   json.text("method", method_name(arguments.method));
-  json.text("status", wsk_status_name(report.status));
-  json.text("stage", wsk_stage_name(report.stage));
-  if (report.status == WSK_OK || report.sentence == nullptr) {
-    json.member("sentence", "null");
-  } else {
-    json.text("sentence", report.sentence);
-  }
-  json.member("place", place_json(report));
+  json.text("status", outcome.status);
+  json.text("stage", outcome.stage);
+  json.member("sentence", outcome.sentence.empty() ? "null" : json_string(outcome.sentence));
+  json.member("place", place_json(report, outcome.line));
   json.count("curves", report.curves);
   json.count("nodes", report.nodes);
   json.count("segments", report.segments);
@@ -140,6 +144,22 @@ std::string report_json(const Arguments& arguments, const wsk_report& report) {
   json.member("stage_ms", stages_json(report));
   json.number("total_ms", report.total_ms);
   return json.close() + "\n";
+}
+
+}  // namespace
+
+std::string report_json(const Arguments& arguments, const wsk_report& report, size_t line) {
+  const bool silent = report.status == WSK_OK || report.sentence == nullptr;
+  return outcome_json(arguments, report,
+                      {wsk_status_name(report.status), wsk_stage_name(report.stage),
+                       silent ? "" : report.sentence, line});
+}
+
+std::string read_failure_json(const Arguments& arguments, const ReadFailure& failure) {
+  wsk_report report;
+  wsk_report_init(&report, sizeof report);
+  return outcome_json(arguments, report,
+                      {failure.status(), "reading", failure.sentence(), failure.line()});
 }
 
 }  // namespace wireskin_cli

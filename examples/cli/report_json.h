@@ -6,11 +6,17 @@
 #include <string_view>
 
 #include "arguments.h"
+#include "failure.h"
 #include "wireskin.h"
 
 namespace wireskin_cli {
 
-std::string report_json(const Arguments& arguments, const wsk_report& report);
+// `line` of the input that the place of the report speaks of; 0 if there is none.
+std::string report_json(const Arguments& arguments, const wsk_report& report, size_t line = 0);
+
+// The same members for an input that could not be read: all counts are zero, the status is one of
+// those of ReadFailure.
+std::string read_failure_json(const Arguments& arguments, const ReadFailure& failure);
 
 // The text in quotes, escaped.
 std::string json_string(std::string_view text);

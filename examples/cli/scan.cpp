@@ -1,5 +1,6 @@
 #include "scan.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -13,24 +14,49 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-std::string load_text(const std::string& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (file == nullptr) {
-    if (errno == ENOENT) throw Failure(path + ": there is no such file");
-    throw Failure(path + ": cannot be opened: " + std::strerror(errno));
-  }
-  std::string text;
+static void append_all(std::FILE* file, const std::string& path, std::string& bytes) {
   char block[1 << 16];
   for (size_t got = 1; got != 0;) {
-    got = std::fread(block, 1, sizeof block, file.get());
-    text.append(block, got);
+    got = std::fread(block, 1, sizeof block, file);
+    bytes.append(block, got);
   }
-  if (std::ferror(file.get()) != 0) {
-    throw Failure(path + ": cannot be read: " + std::strerror(errno));
+  if (std::ferror(file) != 0) {
+    throw ReadFailure(k_cannot_read, path, 0,
+                      std::string("cannot be read: ") + std::strerror(errno));
   }
-  if (text.empty()) throw Failure(path + ": the file is empty");
-  if (looks_binary(text)) throw Failure(path + ": this is a binary file, not text");
-  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
+}
+
+std::string load_bytes(const std::string& path) {
+  std::string bytes;
+  if (path == "-") {
+    append_all(stdin, path, bytes);
+  } else {
+    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+    if (file == nullptr) {
+      const std::string why = errno == ENOENT
+                                  ? "there is no such file"
+                                  : std::string("cannot be opened: ") + std::strerror(errno);
+      throw ReadFailure(k_cannot_read, path, 0, why);
+    }
+    append_all(file.get(), path, bytes);
+  }
+  if (bytes.empty()) throw ReadFailure(k_malformed, path, 0, "the file is empty");
+  return bytes;
+}
+
+void require_text(const std::string& file, std::string& bytes) {
+  if (bytes.compare(0, 2, "\xFF\xFE") == 0 || bytes.compare(0, 2, "\xFE\xFF") == 0) {
+    throw ReadFailure(k_not_supported, file, 0, "the text is UTF-16: save it as UTF-8 or ASCII");
+  }
+  if (looks_binary(bytes)) {
+    throw ReadFailure(k_malformed, file, 0, "this is a binary file, not text");
+  }
+  if (bytes.compare(0, 3, "\xEF\xBB\xBF") == 0) bytes.erase(0, 3);
+}
+
+std::string load_text(const std::string& path) {
+  std::string text = load_bytes(path);
+  require_text(path, text);
   return text;
 }
 
@@ -50,6 +76,20 @@ static std::string_view without_plus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
+// The parser tells "out of range" only; which end of the range, the place of the first digit tells.
+static bool is_tiny(std::string_view text) {
+  const size_t e = text.find_first_of("eE");
+  int64_t exponent = 0;
+  if (e != std::string_view::npos && !parse_integer(text.substr(e + 1), &exponent)) {
+    return text[e + 1] == '-';
+  }
+  const std::string_view mantissa = text.substr(0, e);
+  const size_t digit = mantissa.find_first_of("123456789");
+  if (digit == std::string_view::npos) return true;
+  const size_t point = std::min(mantissa.find('.'), mantissa.size());
+  return exponent < static_cast<int64_t>(digit) - static_cast<int64_t>(point);
+}
+
 bool parse_double(std::string_view text, double* value) {
   text = without_plus(text);
   const char* end = text.data() + text.size();
@@ -57,9 +97,17 @@ bool parse_double(std::string_view text, double* value) {
   if (result.ec == std::errc::result_out_of_range && result.ptr == end) {
     // Too near zero is zero; too large is no double.
     *value = 0.0;
-    return lower_case(text).find("e-") != std::string::npos;
+    return is_tiny(text);
   }
   return result.ec == std::errc() && result.ptr == end;
+}
+
+bool is_too_large(std::string_view text) {
+  double value = 0.0;
+  text = without_plus(text);
+  const char* end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, value);
+  return result.ec == std::errc::result_out_of_range && result.ptr == end && !is_tiny(text);
 }
 
 bool parse_integer(std::string_view text, int64_t* value) {
@@ -90,6 +138,14 @@ std::string in_quotes(std::string_view text) {
   return result + (text.size() > k_longest ? "...\"" : "\"");
 }
 
+std::string printable(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+  }
+  return result;
+}
+
 // Appends the next physical line to current_.
 bool LineScanner::take_line() {
   if (at_ >= text_.size()) return false;
@@ -103,8 +159,9 @@ bool LineScanner::take_line() {
 
 void LineScanner::split(char comment) {
   constexpr const char* k_blanks = " \t\f\v";
-  std::string_view rest = current_;
-  if (comment != '\0') rest = rest.substr(0, rest.find(comment));
+  whole_ = current_;
+  if (comment != '\0') whole_ = whole_.substr(0, whole_.find(comment));
+  std::string_view rest = whole_;
   columns_.clear();
   while (true) {
     const size_t first = rest.find_first_not_of(k_blanks);
@@ -117,6 +174,7 @@ void LineScanner::split(char comment) {
 }
 
 bool LineScanner::next(char comment) {
+  after_blank_ = false;
   do {
     current_.clear();
     if (!take_line()) {
@@ -130,14 +188,17 @@ bool LineScanner::next(char comment) {
       if (!take_line()) break;
     }
     split(comment);
+    if (current_.find_first_not_of(" \t\f\v") == std::string::npos) after_blank_ = true;
   } while (columns_.empty());
   return true;
 }
 
 double LineScanner::number(size_t column) const {
   double value = 0.0;
-  if (!parse_double(columns_[column], &value))
-    fail(in_quotes(columns_[column]) + " is not a number");
+  const std::string_view text = columns_[column];
+  if (!parse_double(text, &value)) {
+    fail(in_quotes(text) + (is_too_large(text) ? " is too large a number" : " is not a number"));
+  }
   return value;
 }
 
@@ -151,7 +212,7 @@ uint32_t LineScanner::count(size_t column, const char* what) const {
 }
 
 void LineScanner::fail_at(size_t line, const std::string& what) const {
-  throw Failure(file_ + ":" + std::to_string(line) + ": " + what);
+  throw ReadFailure(k_malformed, file_, line, what);
 }
 
 }  // namespace wireskin_cli

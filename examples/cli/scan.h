@@ -14,8 +14,13 @@
 
 namespace wireskin_cli {
 
-// The bytes of a file without a UTF-8 byte order mark. A Failure if it cannot be read, is empty or
-// is no text.
+// The bytes of a file, "-" being the standard input. A Failure if it cannot be read or is empty.
+std::string load_bytes(const std::string& path);
+
+// Takes a UTF-8 byte order mark away. A Failure if the bytes are no text, or UTF-16.
+void require_text(const std::string& file, std::string& bytes);
+
+// Both in one.
 std::string load_text(const std::string& path);
 
 // Whether the first block holds a NUL or mostly control characters.
@@ -24,6 +29,8 @@ bool looks_binary(std::string_view bytes);
 // One number and nothing else; a leading + is allowed. False if it is none or too large for a
 // double.
 bool parse_double(std::string_view text, double* value);
+// Whether parse_double failed because the number is too large.
+bool is_too_large(std::string_view text);
 bool parse_integer(std::string_view text, int64_t* value);
 
 // The shortest text that reads back as the same bits.
@@ -31,6 +38,10 @@ void append_double(std::string& text, double value);
 
 std::string lower_case(std::string_view text);
 std::string in_quotes(std::string_view text);
+
+// As complaints name the file: control characters, line ends among them, become '?', so that a
+// message stays one line.
+std::string printable(std::string_view text);
 
 // Walks over the lines of a text and splits each into columns.
 class LineScanner {
@@ -46,6 +57,10 @@ class LineScanner {
   // The columns of the current line, and its number (of the last line, at the end of the text).
   const std::vector<std::string_view>& columns() const { return columns_; }
   size_t line() const { return line_; }
+  // The whole of the current line, without its comment, and whether an empty one stood before it.
+  std::string_view text() const { return whole_; }
+  bool after_blank() const { return after_blank_; }
+  const std::string& file() const { return file_; }
 
   double number(size_t column) const;
   // An integer from 0 to 2^32 - 2; `what` names it in the complaint.
@@ -65,6 +80,8 @@ class LineScanner {
   size_t lines_taken_ = 0;
   size_t line_ = 0;
   std::string current_;
+  std::string_view whole_;
+  bool after_blank_ = false;
   std::vector<std::string_view> columns_;
 };
 

@@ -33,7 +33,25 @@ static std::vector<uint32_t> triangles_by_patch(const wsk_surface_view& surface)
   return order;
 }
 
-std::string obj_bytes(const wsk_surface_view& surface) {
+// Edges that follow one another make one polyline.
+static void append_curves(std::string& text, const wsk_surface_view& surface) {
+  const uint32_t* edges = surface.curve_edges;
+  for (uint32_t e = 0; e < surface.curve_edge_count; ++e) {
+    const bool same_curve = e > 0 && surface.curve_edge_curve != nullptr &&
+                            surface.curve_edge_curve[e] == surface.curve_edge_curve[e - 1];
+    if (e == 0 || !same_curve) {
+      const uint32_t curve = surface.curve_edge_curve != nullptr ? surface.curve_edge_curve[e] : 0;
+      text += (e == 0 ? "g curve_" : "\ng curve_") + std::to_string(curve);
+    }
+    if (e == 0 || !same_curve || edges[2 * size_t{e} - 1] != edges[2 * size_t{e}]) {
+      text += "\nl " + std::to_string(edges[2 * size_t{e}] + 1ull);
+    }
+    text += " " + std::to_string(edges[2 * size_t{e} + 1] + 1ull);
+  }
+  if (surface.curve_edge_count != 0) text += "\n";
+}
+
+std::string obj_bytes(const wsk_surface_view& surface, bool curves) {
   std::string text = std::string("# wireskin ") + wsk_version_string() + "\n";
   for (size_t v = 0; v < surface.vertex_count; ++v) {
     append_row(text, "v", surface.positions + 3 * v);
@@ -57,10 +75,20 @@ std::string obj_bytes(const wsk_surface_view& surface) {
     }
     text += '\n';
   }
+  if (curves) append_curves(text, surface);
   return text;
 }
 
-std::string ply_bytes(const wsk_surface_view& surface) {
+static void append_edges(std::string& bytes, const wsk_surface_view& surface) {
+  for (size_t e = 0; e < surface.curve_edge_count; ++e) {
+    append_little(bytes, surface.curve_edges[2 * e]);
+    append_little(bytes, surface.curve_edges[2 * e + 1]);
+    append_little(bytes,
+                  surface.curve_edge_curve != nullptr ? surface.curve_edge_curve[e] : uint32_t{0});
+  }
+}
+
+std::string ply_bytes(const wsk_surface_view& surface, bool curves) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\n";
   bytes += std::string("comment wireskin ") + wsk_version_string() + "\n";
   bytes += "element vertex " + std::to_string(surface.vertex_count) + "\n";
@@ -68,7 +96,12 @@ std::string ply_bytes(const wsk_surface_view& surface) {
     bytes += std::string("property double ") + name + "\n";
   }
   bytes += "element face " + std::to_string(surface.triangle_count) + "\n";
-  bytes += "property list uchar int vertex_indices\nproperty int patch\nend_header\n";
+  bytes += "property list uchar int vertex_indices\nproperty int patch\n";
+  if (curves) {
+    bytes += "element edge " + std::to_string(surface.curve_edge_count) + "\n";
+    bytes += "property int vertex1\nproperty int vertex2\nproperty int curve\n";
+  }
+  bytes += "end_header\n";
   for (size_t v = 0; v < surface.vertex_count; ++v) {
     for (size_t k = 0; k < 3; ++k) append_little(bytes, surface.positions[3 * v + k]);
     for (size_t k = 0; k < 3; ++k) append_little(bytes, surface.normals[3 * v + k]);
@@ -79,6 +112,7 @@ std::string ply_bytes(const wsk_surface_view& surface) {
     for (size_t k = 0; k < 3; ++k) append_little(bytes, surface.triangles[3 * t + k]);
     append_little(bytes, surface.triangle_patch[t]);
   }
+  if (curves) append_edges(bytes, surface);
   return bytes;
 }
 
@@ -122,11 +156,11 @@ std::string stl_bytes(const wsk_surface_view& surface, const std::string& file) 
   return bytes;
 }
 
-std::string mesh_bytes(const wsk_surface_view& surface, const std::string& file) {
+std::string mesh_bytes(const wsk_surface_view& surface, const std::string& file, bool curves) {
   const std::string extension = extension_of(file);
-  if (extension == ".ply") return ply_bytes(surface);
+  if (extension == ".ply") return ply_bytes(surface, curves);
   if (extension == ".stl") return stl_bytes(surface, file);
-  return obj_bytes(surface);
+  return obj_bytes(surface, curves);
 }
 
 }  // namespace wireskin_cli

@@ -12,10 +12,13 @@
 namespace wireskin_cli {
 
 // The format follows from the extension of the file: .obj, .ply or .stl.
-std::string mesh_bytes(const wsk_surface_view& surface, const std::string& file);
+// With `curves`, those of the network are there too, as they are in the mesh: polylines (l) in
+// groups curve_K, in PLY edges with their curve; STL has no place for them.
+std::string mesh_bytes(const wsk_surface_view& surface, const std::string& file,
+                       bool curves = false);
 
-std::string obj_bytes(const wsk_surface_view& surface);
-std::string ply_bytes(const wsk_surface_view& surface);
+std::string obj_bytes(const wsk_surface_view& surface, bool curves = false);
+std::string ply_bytes(const wsk_surface_view& surface, bool curves = false);
 std::string stl_bytes(const wsk_surface_view& surface, const std::string& file);
 
 }  // namespace wireskin_cli

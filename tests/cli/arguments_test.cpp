@@ -24,7 +24,7 @@ static bool complains_of(const std::vector<std::string>& words, const char* what
 TEST_CASE("everything given") {
   const Arguments arguments =
       parse_arguments({"--spacing", "0.5", "in.net", "-o", "out.PLY", "--method=triharmonic",
-                       "--report=r.json", "--image", "i.png", "--quiet", "--up", "y"});
+                       "--report=r.json", "--image", "i.png", "--quiet", "--up", "y", "--curves"});
   CHECK(arguments.input == "in.net");
   CHECK(arguments.outputs == std::vector<std::string>{"out.PLY"});
   CHECK(arguments.spacing == 0.5);
@@ -33,6 +33,7 @@ TEST_CASE("everything given") {
   CHECK(arguments.image == "i.png");
   CHECK(arguments.quiet);
   CHECK(arguments.up_axis == 1);
+  CHECK(arguments.curves);
 }
 
 TEST_CASE("defaults") {
@@ -42,6 +43,7 @@ TEST_CASE("defaults") {
   CHECK(arguments.report.empty());
   CHECK(arguments.image.empty());
   CHECK_FALSE(arguments.quiet);
+  CHECK_FALSE(arguments.curves);
   CHECK(arguments.up_axis == 2);
 }
 
@@ -71,6 +73,7 @@ TEST_CASE("wrong usage") {
   CHECK(complains_of({"a.net", "b.net", "-o", "out.obj"}, "more than one input"));
   CHECK(complains_of({"a.net", "-o", "out.obj", "--fast"}, "unknown option \"--fast\""));
   CHECK(complains_of({"a.net", "-o", "out.obj", "--quiet=1"}, "--quiet takes no value"));
+  CHECK(complains_of({"a.net", "-o", "out.stl", "--curves"}, "--curves needs .obj or .ply"));
   CHECK(complains_of({"a.net", "-o", "out.dae"}, "unknown output format \".dae\""));
   CHECK(complains_of({"a.net", "-o", "out"}, "unknown output format"));
   CHECK(complains_of({"a.net", "-o", "out.obj", "--image", "x.jpg"}, "must end in .png"));

@@ -186,8 +186,16 @@ TEST_CASE("faults of reading end with 1, one line, and no file") {
       {"range.net", with_line(net, 46, "0 42"),
        "range.net:46: vertex index 42 is out of range, the file has 42 vertices\n"},
       {"mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-       "mesh.obj: a mesh (f) without curves: the curves must be given as l\n"},
-      {"other.svg", "<svg/>", "other.svg: unknown format \".svg\", known are .net and .obj\n"},
+       "mesh.obj: a mesh of triangles (f) without curves: the curves must be given as l\n"},
+      {"other.svg", "<svg/>",
+       "other.svg: the content is of no known format and neither is the extension \".svg\", known "
+       "are .obj, .ply, .net, .rawnet, .csv, .tsv, .txt, .dat, .asc, .xyz, .curves, .curve, "
+       ".contour, .curf\n"},
+      {"points.xyz", "0 0 0\n1 0 0\n",
+       "points.xyz: points without curves, which are not surfaced yet: curves must be given\n"},
+      {"raw.rawnet", "1\n0\n0\n0\n1\n0 1 0 0 0 0 1\n",
+       "raw.rawnet: measured tangents without positions (.rawnet) are not surfaced yet: integrate "
+       "them to a .net first\n"},
   };
   for (const auto& c : cases) {
     CAPTURE(c.name);
@@ -197,6 +205,17 @@ TEST_CASE("faults of reading end with 1, one line, and no file") {
     CHECK(r.status == 1);
     CHECK(r.out == "");
     CHECK(r.err == c.message);
+    // The report has the place and the sentence of the message.
+    REQUIRE(fs::exists(folder / "out.json"));
+    auto report = JsonReader(read_file(folder / "out.json")).values;
+    CHECK(report["stage"] == "reading");
+    CHECK(report["status"] != "ok");
+    std::string head = std::string(c.name) + ":";
+    if (report.count("place.line") != 0) head += report["place.line"] + ":";
+    if (report["sentence"].find('\\') == std::string::npos) {
+      CHECK(head + " " + report["sentence"] + "\n" == r.err);
+    }
+    fs::remove(folder / "out.json");
     fs::remove(folder / c.name);
     CHECK(folder.file_count() == 0);
   }
@@ -273,7 +292,59 @@ TEST_CASE("outputs are complete or absent, all of them") {
   }
 }
 
+TEST_CASE("hints: spacing, huge offsets, normals, names") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(4));
+  CHECK(run(folder, "sphere.net -o a.obj --spacing 1e-20").err ==
+        "sphere.net: the spacing is too small for the network; --spacing is 1e-20, the diagonal of "
+        "the network 3.46, and a hundredth of it the default\n");
+  write_file(folder / "far.net",
+             "3\n1e14 0 0 0 0 1\n100000000000001 0 0 0 0 1\n1e14 1 0 0 0 1\n1\n0\n0 1 2\n");
+  const Run far = run(folder, "far.net -o a.obj");
+  CHECK(one_line(far.err));
+  CHECK(far.err.find("; the network spans 1.41 but lies 1e+14 from the origin, where numbers are "
+                     "rounded to about 0.0222: move it to the origin\n") != std::string::npos);
+  write_file(folder / "bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\ng a rim\nl 1 2 3 1\n");
+  CHECK(run(folder, "bare.obj -o a.obj").err ==
+        "bare.obj: curve 0 (\"a rim\"): the curve has no normals (line 5); the file gives no "
+        "normals at all, and every curve but a crease needs them\n");
+  write_file(folder / "some.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,,,\n1,1,0,0,0,1\n");
+  CHECK(run(folder, "some.csv -o a.obj").err ==
+        "some.csv: curve 0, sample 1: this sample has no normal, though others of its curve have "
+        "one (line 3)\n");
+}
+
+TEST_CASE("the curves go out with the mesh, and come back in") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(16));
+  for (const char* name : {"s.obj", "s.ply"}) {
+    CAPTURE(name);
+    const std::string output = name;
+    REQUIRE(run(folder, "sphere.net -o " + output + " --curves --spacing 0.1").status == 0);
+    const Run again = run(folder, output + " -o t.ply --spacing 0.1 --report t.json --quiet");
+    CHECK(again.err == "");
+    auto report = JsonReader(read_file(folder / "t.json")).values;
+    CHECK(report["patches"] == "8");
+    CHECK(report["euler_characteristic"] == "2");
+  }
+  CHECK(run(folder, "sphere.net -o s.stl --curves").status == 2);
+}
+
+TEST_CASE("the standard input") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(8));
+  CHECK(run(folder, "- -o s.obj --spacing 0.2 < sphere.net").status == 0);
+  CHECK(run(folder, "- -o s.obj < /dev/null").err == "-: the file is empty\n");
+}
+
 #ifdef __unix__
+TEST_CASE("a name with control characters does not break the line of the message") {
+  const ScratchFolder folder("command");
+  const Run r = run(folder, "\"$(printf 'a\\nb\\033c')\".net -o s.obj");
+  CHECK(r.status == 1);
+  CHECK(r.err == "a?b?c.net: there is no such file\n");
+}
+
 TEST_CASE("a full disk leaves neither file nor remains, nor harms what was there") {
   const ScratchFolder folder("command");
   write_file(folder / "sphere.net", sphere_net(8));

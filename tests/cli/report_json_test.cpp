@@ -85,6 +85,23 @@ TEST_CASE("a failure with its place") {
   CHECK(values["place.patch"] == "null");
 }
 
+TEST_CASE("an input that could not be read, with its line") {
+  Arguments arguments;
+  arguments.input = "a.csv";
+  const ReadFailure failure(k_malformed, "a.csv", 7, "\"x\" is not a number");
+  auto values = JsonReader(read_failure_json(arguments, failure)).values;
+  CHECK(values["status"] == "malformed");
+  CHECK(values["stage"] == "reading");
+  CHECK(values["sentence"] == "\"x\" is not a number");
+  CHECK(values["place.line"] == "7");
+  CHECK(values["place.curve"] == "null");
+  CHECK(values["curves"] == "0");
+  const ReadFailure whole(k_cannot_read, "a.csv", 0, "there is no such file");
+  values = JsonReader(read_failure_json(arguments, whole)).values;
+  CHECK(values["status"] == "cannot_read");
+  CHECK(values["place"] == "null");
+}
+
 TEST_CASE("numbers that JSON cannot hold become null") {
   wsk_report report = filled_report();
   report.spacing = std::nan("");

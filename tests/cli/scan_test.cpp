@@ -29,6 +29,14 @@ TEST_CASE("numbers in all their forms") {
   CHECK(parsed("1E+2") == 100.0);
   CHECK(parsed("4.9e-324") == 4.9e-324);
   CHECK(parsed("1e-999") == 0.0);
+  CHECK(parsed("1e-99999999999999999999") == 0.0);
+  CHECK(parsed("1000e-999") == 0.0);
+  CHECK(parsed(("0." + std::string(400, '0') + "1").c_str()) == 0.0);
+  CHECK(is_too_large("1e999"));
+  CHECK(is_too_large("1e99999999999999999999"));
+  CHECK(is_too_large(std::string(400, '7')));
+  CHECK_FALSE(is_too_large("seven"));
+  CHECK_FALSE(is_too_large("1e-999"));
   CHECK(std::isnan(parsed("nan")));
   CHECK(std::isinf(parsed("inf")));
 }
@@ -114,6 +122,17 @@ TEST_CASE("a backslash continues a line, also at the end of the text") {
   REQUIRE(scanner.next());
   CHECK(scanner.line() == 4);
   CHECK(scanner.columns().size() == 1);
+}
+
+TEST_CASE("empty lines before a line are noted, comments are not empty") {
+  LineScanner scanner("f", "a\n\nb\n# c\nd # e\n", false);
+  REQUIRE(scanner.next('#'));
+  CHECK_FALSE(scanner.after_blank());
+  REQUIRE(scanner.next('#'));
+  CHECK(scanner.after_blank());
+  REQUIRE(scanner.next('#'));
+  CHECK_FALSE(scanner.after_blank());
+  CHECK(scanner.text() == "d ");
 }
 
 TEST_CASE("comments") {

@@ -40,6 +40,26 @@ TEST_CASE("OBJ: normals beside vertices, one group a patch in order") {
                                         "g patch_1\nf 1//1 2//2 3//3\n");
 }
 
+TEST_CASE("OBJ: curves as polylines, a new one where the curve changes or breaks off") {
+  Square square;
+  const std::string plain = obj_bytes(square.view());
+  CHECK(obj_bytes(square.view(), true) == plain + "g curve_0\nl 1 2 3 4\ng curve_1\nl 4 1\n");
+  square.curve_edges = {0, 1, 2, 3, 3, 0, 1, 2};
+  square.curve_edge_curve = {5, 5, 5, 0};
+  CHECK(obj_bytes(square.view(), true) == plain + "g curve_5\nl 1 2\nl 3 4 1\ng curve_0\nl 2 3\n");
+}
+
+TEST_CASE("PLY: curves as edges behind the faces") {
+  const Square square;
+  const std::string plain = ply_bytes(square.view());
+  const std::string bytes = ply_bytes(square.view(), true);
+  const std::string header =
+      "element edge 4\nproperty int vertex1\nproperty int vertex2\nproperty int curve\n";
+  CHECK(bytes.find(header) != std::string::npos);
+  CHECK(bytes.size() == plain.size() + header.size() + 4 * 12);
+  CHECK(bytes.substr(bytes.size() - 12) == std::string("\3\0\0\0\0\0\0\0\1\0\0\0", 12));
+}
+
 TEST_CASE("PLY: header and every byte behind it") {
   const Square square;
   const std::string bytes = ply_bytes(square.view());

@@ -1,0 +1,56 @@
+#include "hints.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstdio>
+
+namespace wireskin_cli {
+
+struct Reach {
+  double diagonal;  // of the bounding box
+  double farthest;  // the largest coordinate
+};
+
+static Reach reach_of(const Network& network) {
+  Reach reach = {0.0, 0.0};
+  double square = 0.0;
+  for (size_t k = 0; k < 3 && k < network.positions.size(); ++k) {
+    double low = network.positions[k], high = low;
+    for (size_t i = k; i < network.positions.size(); i += 3) {
+      low = std::min(low, network.positions[i]);
+      high = std::max(high, network.positions[i]);
+    }
+    square += (high - low) * (high - low);
+    reach.farthest = std::max({reach.farthest, std::fabs(low), std::fabs(high)});
+  }
+  reach.diagonal = std::sqrt(square);
+  return reach;
+}
+
+static std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string failure_hint(const Arguments& arguments, const Network& network,
+                         const wsk_report& report) {
+  if (report.status == WSK_ERROR_CANCELLED) return "";
+  const Reach reach = reach_of(network);
+  if (report.status == WSK_ERROR_MISSING_NORMALS && network.normals.empty()) {
+    return "; the file gives no normals at all, and every curve but a crease needs them";
+  }
+  if (report.status == WSK_ERROR_TOO_LARGE && arguments.spacing > 0.0) {
+    return "; --spacing is " + short_number(arguments.spacing) + ", the diagonal of the network " +
+           short_number(reach.diagonal) + ", and a hundredth of it the default";
+  }
+  // Far from the origin doubles are coarse; what then goes wrong does not look like it.
+  const double rounding = reach.farthest * DBL_EPSILON;
+  if (!(rounding > 1e-9 * reach.diagonal) || !std::isfinite(reach.farthest)) return "";
+  return "; the network spans " + short_number(reach.diagonal) + " but lies " +
+         short_number(reach.farthest) + " from the origin, where numbers are rounded to about " +
+         short_number(rounding) + ": move it to the origin";
+}
+
+}  // namespace wireskin_cli

@@ -1,0 +1,16 @@
+// What a person can do about a failure, where the sentence of the library does not say it.
+#pragma once
+
+#include <string>
+
+#include "arguments.h"
+#include "network.h"
+#include "wireskin.h"
+
+namespace wireskin_cli {
+
+// "; the file gives no normals ...", or "".
+std::string failure_hint(const Arguments& arguments, const Network& network,
+                         const wsk_report& report);
+
+}  // namespace wireskin_cli
