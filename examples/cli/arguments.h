@@ -24,6 +24,8 @@ struct Arguments {
   bool quiet = false;
   bool help = false;
   bool version = false;
+  double snap = 0.0;  // the tolerance; 0: automatic, negative: off
+  bool orient = false;
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

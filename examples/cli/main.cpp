@@ -18,13 +18,20 @@
 
 namespace wireskin_cli {
 
+static std::string report_of(const Arguments& arguments, const BuildResult& result) {
+  if (result.prepared == nullptr) return report_json(arguments, result.report);
+  wsk_network_view prepared;
+  wsk_network_get_view(result.prepared.get(), &prepared, sizeof prepared);
+  return report_json(arguments, result.report, &prepared);
+}
+
 // The report of a build that failed. What went wrong there is said before what goes wrong here.
-static void write_failure_report(const Arguments& arguments, const wsk_report& report,
+static void write_failure_report(const Arguments& arguments, const BuildResult& result,
                                  const std::string& line) {
   if (arguments.report.empty()) return;
   try {
     OutputFiles files;
-    files.add(arguments.report, report_json(arguments, report));
+    files.add(arguments.report, report_of(arguments, result));
     files.commit();
   } catch (const Failure& failure) {
     throw Failure(line + "; " + failure.what());
@@ -32,14 +39,14 @@ static void write_failure_report(const Arguments& arguments, const wsk_report& r
 }
 
 static void write_outputs(const Arguments& arguments, const Network& network,
-                          const wsk_surface_view& surface, const wsk_report& report) {
+                          const wsk_surface_view& surface, const BuildResult& result) {
   OutputFiles files;
   files.add(arguments.output, mesh_bytes(surface, arguments.output));
   if (!arguments.image.empty()) {
     files.add(arguments.image, png_bytes(draw_picture(surface, network, arguments.up_axis)));
   }
   if (!arguments.report.empty()) {
-    files.add(arguments.report, report_json(arguments, report));
+    files.add(arguments.report, report_of(arguments, result));
   }
   if (cancel_wanted()) throw Failure(arguments.input + ": cancelled");
   files.commit();
@@ -54,12 +61,12 @@ static void run(const Arguments& arguments) {
   progress.clear();
   if (result.surface == nullptr) {
     const std::string line = failure_line(arguments.input, network, result.report);
-    write_failure_report(arguments, result.report, line);
+    write_failure_report(arguments, result, line);
     throw Failure(line);
   }
   wsk_surface_view surface;
   wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
-  write_outputs(arguments, network, surface, result.report);
+  write_outputs(arguments, network, surface, result);
   if (arguments.quiet) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::printf("%s: %lu vertices, %lu triangles, %lu patches, %.2f s\n", arguments.output.c_str(),

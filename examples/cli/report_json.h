@@ -10,7 +10,9 @@
 
 namespace wireskin_cli {
 
-std::string report_json(const Arguments& arguments, const wsk_report& report);
+// `prepared` may be null.
+std::string report_json(const Arguments& arguments, const wsk_report& report,
+                        const wsk_network_view* prepared = nullptr);
 
 // The text in quotes, escaped.
 std::string json_string(std::string_view text);
