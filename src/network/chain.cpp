@@ -89,7 +89,9 @@ static Status link_ends(const Wires& wires, Chaining chaining, double corner,
     cut[e] = (*partner)[e] != k_none && is_corner(wires, partner->span(), e, corner);
   }
   for (uint32_t e = 0; e < partner->size(); ++e) {
-    if (cut[e]) (*partner)[(*partner)[e]] = (*partner)[e] = k_none;
+    if (!cut[e] || (*partner)[e] == k_none) continue;
+    (*partner)[(*partner)[e]] = k_none;
+    (*partner)[e] = k_none;
   }
   return {};
 }

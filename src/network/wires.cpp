@@ -83,7 +83,8 @@ static void weld_places(const Wires& wires, Span<const uint8_t> is_end, Array<ui
   for (size_t first = 0, end = 0; first < order->size(); first = end) {
     bool ends = false;
     while (end < order->size() && position[(*order)[end]] == position[(*order)[first]]) {
-      ends = ends || is_end[(*order)[end++]] != 0;
+      ends = ends || is_end[(*order)[end]] != 0;
+      ++end;
     }
     for (size_t k = first + 1; ends && k < end; ++k) sets->unite((*order)[first], (*order)[k]);
   }
