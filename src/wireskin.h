@@ -520,15 +520,16 @@ typedef struct wsk_network_view {
 
 /* Makes a network of raw curves: fragments, two-point segments, curves that almost meet.
  *
- * Samples with the same node number are one point, as for wsk_build, and so are samples at the same
- * place of which one ends an open curve. Fragments become curves through points at which two ends
- * meet, unless there is a corner; closed curves are recognised. Then curves that come nearer to
- * each other than options.snap are joined, nearest first: ends to ends, ends to the inside of
- * curves, and the insides of curves of different components, or that cross. Places that the network
- * connects within four tolerances are left alone, and so is everything in a connected network
- * without dangling ends. Existing nodes stay where they are and the curves that come to them bend
- * smoothly; an end comes to the inside of a curve; ends meet in the middle, and so do insides. A
- * joint between samples becomes a sample.
+ * Samples with the same node number are one point, as for wsk_build, and so are samples at exactly
+ * the same place. Fragments become curves through points at which two ends meet, unless there is a
+ * corner; closed curves are recognised. Then curves that come nearer to each other than options.snap
+ * are joined, nearest first: ends to ends, ends to the inside of curves, and the insides of curves of
+ * different components. Insides of one component are joined only where they cross: at a quarter of
+ * the tolerance, or at a hundredth where the network is one component without dangling ends
+ * already. Places that the network connects within four tolerances are left alone (loose ends:
+ * within four times their distance). Existing nodes stay where they are and the curves that come to
+ * them bend smoothly; an end comes to the inside of a curve; ends meet in the middle, and so do
+ * insides. A joint between samples becomes a sample.
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other

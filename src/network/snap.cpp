@@ -5,10 +5,11 @@
 
 namespace wireskin::network {
 
-// Places are connected if the network joins them within this many tolerances.
+// Insides are connected if the network joins them within this many tolerances.
 static constexpr double k_connected = 4.0;
-// Within one component insides are joined only this much nearer than the tolerance.
-static constexpr double k_crossing = 0.25;
+// Within one component insides are joined only this much nearer than the tolerance: where curves
+// cross, and not where they pass each other. A complete network rarely has any crossing left.
+static constexpr double k_crossing = 0.25, k_crossing_in_complete = 0.01;
 
 // A sample, or a place that became one. The beads of a curve are a list, the beads of a point a
 // ring. Beads of samples have the sample's index.
@@ -66,6 +67,7 @@ class Snapper {
   Status connected(const BeadPlace& a, const BeadPlace& b, double radius, bool* result);
   uint32_t make_bead(const WirePlace& place);
   Origin origin_of(const WirePlace& place) const;
+  double detour(uint32_t free_ends, double distance) const;
   Status join(const Approach& approach, SnapResult* result);
   Status count_open(Span<const Approach> approaches, uint32_t* open);
   Vec3 target_of(uint32_t root, Span<uint32_t> seen, uint32_t mark) const;
@@ -254,6 +256,14 @@ Origin Snapper::origin_of(const WirePlace& place) const {
   return {along.curve, along.sample, along.backwards ? 1.0 - place.part : place.part};
 }
 
+// How long a way through the network counts as a connection. A loose end is there to be joined:
+// only the tip of a curve that has crossed the other one (at 30 degrees or more) already is not.
+double Snapper::detour(uint32_t free_ends, double distance) const {
+  if (free_ends == 0) return k_connected * tolerance_;
+  const double factor = free_ends == 1 ? 4.0 : 2.0, least = free_ends == 1 ? 1.0 : 0.5;
+  return factor * distance > least * tolerance_ ? factor * distance : least * tolerance_;
+}
+
 Status Snapper::join(const Approach& approach, SnapResult* result) {
   WirePlace a = approach.a, b = approach.b;
   const auto at_bead = [this](uint32_t bead) {
@@ -283,13 +293,13 @@ Status Snapper::join(const Approach& approach, SnapResult* result) {
   }
   const double distance = length(at_a - at_b);
   if (!(distance <= tolerance_)) return {};
-  const bool free = (x != k_none && is_free_end(x)) || (y != k_none && is_free_end(y));
-  if (!free && component_[curve_[a.edge]] == component_[curve_[b.edge]] &&
-      (complete_ || distance > k_crossing * tolerance_)) {
+  const uint32_t free_ends = (x != k_none && is_free_end(x)) + (y != k_none && is_free_end(y));
+  if (free_ends == 0 && component_[curve_[a.edge]] == component_[curve_[b.edge]] &&
+      distance > (complete_ ? k_crossing_in_complete : k_crossing) * tolerance_) {
     return {};
   }
   bool together = false;
-  TRY(connected(locate(a), locate(b), k_connected * tolerance_, &together));
+  TRY(connected(locate(a), locate(b), detour(free_ends, distance), &together));
   if (together) return {};
   x = make_bead(a);
   const uint32_t z = make_bead(b);
@@ -335,7 +345,8 @@ Status Snapper::run(SnapResult* result) {
   TRY(curve_of_samples(wires_, &curve_));
   TRY(count_wires(wires_, &component_, &counts));
   complete_ = counts.dangling == 0 && counts.components == 1;
-  if (!complete_) TRY(find_approaches(wires_, curve_.span(), tolerance_, &approaches));
+  const double reach = (complete_ ? k_crossing_in_complete : 1.0) * tolerance_;
+  TRY(find_approaches(wires_, curve_.span(), reach, &approaches));
   sort(approaches.span(), [](const Approach& p, const Approach& q) {
     if (p.distance != q.distance) return p.distance < q.distance;
     if (p.a.edge != q.a.edge) return p.a.edge < q.a.edge;

@@ -3,14 +3,15 @@
 //
 // In: welded, chained curves and a tolerance. Local minima of the distance between curves are taken
 // nearest first. One is left alone where the network connects its places already within four
-// tolerances; where it lies near an end or a node of a curve that is no farther than the tolerance
-// from the other place, that end or node takes part instead. Two insides are joined only if the
-// curves were in different connected components to begin with, or cross at a quarter of the
-// tolerance in a network that is not complete (one component without dangling ends). A place
-// between samples becomes a sample. Where a place was connected already it stays and the others
-// come to it, else an end comes to the inside of a curve, else both meet in the middle. Out: the
-// curves, bent (network/bend.h), with the points united; the list of joints. Cost: that of finding
-// the approaches, and of a search over the samples within four tolerances for each.
+// tolerances (a loose end: four times the distance, two loose ends: twice); where it lies near an
+// end or a node of a curve that is no farther than the tolerance from the other place, that end or
+// node takes part instead. Two insides are joined only if the curves were in different connected
+// components to begin with, or cross: at a quarter of the tolerance, or at a hundredth in a network
+// that is complete (one component, no dangling ends). A place between samples becomes a sample.
+// Where a place was connected already it stays and the others come to it, else an end comes to the
+// inside of a curve, else both meet in the middle. Out: the curves, bent (network/bend.h), with the
+// points united; the list of joints. Cost: that of finding the approaches, and of a search over the
+// samples within four tolerances for each.
 #pragma once
 
 #include "network/approach.h"

@@ -70,9 +70,8 @@ static void weld_numbers(const Wires& wires, Array<uint32_t>* order, DisjointSet
   }
 }
 
-// Unites samples at the same place where one of them ends a curve.
-static void weld_places(const Wires& wires, Span<const uint8_t> is_end, Array<uint32_t>* order,
-                        DisjointSets* sets) {
+// Unites samples at the same place.
+static void weld_places(const Wires& wires, Array<uint32_t>* order, DisjointSets* sets) {
   order->clear();
   for (uint32_t i = 0; i < wires.samples(); ++i) order->push_reserved(i);
   const Span<const Vec3> position = wires.position.span();
@@ -80,34 +79,24 @@ static void weld_places(const Wires& wires, Span<const uint8_t> is_end, Array<ui
     if (position[a] != position[b]) return lies_before(position[a], position[b]);
     return a < b;
   });
-  for (size_t first = 0, end = 0; first < order->size(); first = end) {
-    bool ends = false;
-    while (end < order->size() && position[(*order)[end]] == position[(*order)[first]]) {
-      ends = ends || is_end[(*order)[end]] != 0;
-      ++end;
-    }
-    for (size_t k = first + 1; ends && k < end; ++k) sets->unite((*order)[first], (*order)[k]);
+  for (size_t k = 1; k < order->size(); ++k) {
+    const uint32_t a = (*order)[k - 1], b = (*order)[k];
+    if (position[a] == position[b]) sets->unite(a, b);
   }
 }
 
 Status weld(Wires* wires) {
   Context& context = wires->position.context();
   Array<uint32_t> order(context), name(context);
-  Array<uint8_t> is_end(context);
   DisjointSets sets(context);
   const uint32_t n = wires->samples();
   TRY(order.reserve(n));
-  TRY(is_end.assign(n, 0));
   TRY(name.assign(n, k_none));
   TRY(sets.reset(n));
   TRY(wires->point.resize(n));
-  for (uint32_t c = 0; c < wires->curves(); ++c) {
-    if (wires->closed[c]) continue;
-    is_end[wires->start[c]] = is_end[wires->start[c + 1] - 1] = 1;
-  }
   weld_numbers(*wires, &order, &sets);
   TRY(context.checkpoint());
-  weld_places(*wires, is_end.span(), &order, &sets);
+  weld_places(*wires, &order, &sets);
   wires->points = 0;
   for (uint32_t i = 0; i < n; ++i) {
     const uint32_t root = sets.find(i);  // the least, so it has its name already

@@ -95,8 +95,8 @@ Status curve_of_samples(const Wires& wires, Array<uint32_t>* curve);
 // Makes room for one more curve of `samples` samples, whose right normals are stored if `sharp`.
 Status reserve_wires(uint32_t curves, uint32_t samples, bool sharp, Wires* wires);
 
-// Gives every sample its point: samples with the same number are one, and so are samples at bit
-// for bit the same place of which one is the end of an open curve. O(s log s).
+// Gives every sample its point: samples with the same number are one, and so are samples at the
+// same place. O(s log s).
 Status weld(Wires* wires);
 
 // The samples of each point: those of point p are member[first[p] .. first[p + 1]), ascending.
