@@ -559,6 +559,9 @@ typedef struct wsk_sensor_curve {
   /* Non-zero: the last sample is the first again (and is not in the result). */
   int32_t closed;
   int32_t boundary;
+  /* Non-zero: each tangent is the direction from its sample to the next, as in Stanko's .rawnet
+     files, and steps are straight. Zero: the direction at its sample, and steps are circular arcs. */
+  int32_t tangents_to_next;
 } wsk_sensor_curve;
 
 /* Finds the positions: those whose differences fit the tangents best (each step of arc length h

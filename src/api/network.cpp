@@ -480,6 +480,7 @@ static Status integrate(Context& context, const wsk_sensor_curve* curves, size_t
   network::ConnectResult result(context);
   Array<double> arc(context);
   Array<Vec3> tangent(context);
+  Array<uint8_t> to_next(context);
   Array<uint32_t> component(context);
   size_t total = 0;
   TRY(context.enter(Stage::input));
@@ -488,9 +489,11 @@ static Status integrate(Context& context, const wsk_sensor_curve* curves, size_t
                              &wires));
   TRY(arc.reserve(total));
   TRY(tangent.reserve(total));
+  TRY(to_next.reserve(count));
   wires.start.push_reserved(0);
   for (uint32_t c = 0; c < count; ++c) {
     TRY(read_sensor_curve(curves[c], c, &wires, &arc, &tangent));
+    to_next.push_reserved(curves[c].tangents_to_next != 0);
   }
   double longest = 0.0;
   for (uint32_t c = 0; c < count; ++c) {
@@ -506,9 +509,10 @@ static Status integrate(Context& context, const wsk_sensor_curve* curves, size_t
   TRY(weld_sensor(context, &wires));
   TRY(context.enter(Stage::operators));
   double residual = 0.0;
-  TRY(network::integrate_tangents(
-      context, {wires.start.span(), wires.point.span(), wires.points, arc.span(), tangent.span()},
-      wires.position.span(), &residual));
+  TRY(network::integrate_tangents(context,
+                                  {wires.start.span(), wires.point.span(), wires.points, arc.span(),
+                                   tangent.span(), to_next.span()},
+                                  wires.position.span(), &residual));
   drop_repeated(&wires);
   TRY(network::count_wires(wires, &component, &result.after));
   result.before = result.after;

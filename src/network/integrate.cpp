@@ -15,6 +15,13 @@ static Vec3 chord_of_arc(const Vec3& from, const Vec3& to, double arc) {
   return (arc * shrink) * unit(to + from);
 }
 
+// From sample i - 1 of curve c to sample i.
+static Vec3 measured_step(const SensorSamples& samples, size_t c, uint32_t i) {
+  const double arc = samples.arc[i] - samples.arc[i - 1];
+  const Vec3 &from = samples.tangent[i - 1], &to = samples.tangent[i];
+  return samples.to_next[c] ? arc * from : chord_of_arc(from, to, arc);
+}
+
 // One step between two different points, k_none in place of a fixed one.
 struct Step {
   uint32_t low, high;
@@ -102,8 +109,8 @@ Status integrate_tangents(Context& context, const SensorSamples& samples, Span<V
     for (uint32_t i = samples.start[c] + 1; i < samples.start[c + 1]; ++i) {
       const uint32_t a = unknown[samples.point[i - 1]], b = unknown[samples.point[i]];
       if (samples.point[i - 1] == samples.point[i]) continue;
-      const double arc = samples.arc[i] - samples.arc[i - 1], weight = 1.0 / arc;
-      const Vec3 pull = weight * chord_of_arc(samples.tangent[i - 1], samples.tangent[i], arc);
+      const double weight = 1.0 / (samples.arc[i] - samples.arc[i - 1]);
+      const Vec3 pull = weight * measured_step(samples, c, i);
       add(a, -pull);
       add(b, pull);
       if (a != k_none) diagonal[a] += weight;
@@ -120,9 +127,7 @@ Status integrate_tangents(Context& context, const SensorSamples& samples, Span<V
   double sum = 0.0, count = 0.0;
   for (size_t c = 0; c + 1 < samples.start.size(); ++c) {
     for (uint32_t i = samples.start[c] + 1; i < samples.start[c + 1]; ++i) {
-      const Vec3 misfit = position[i] - position[i - 1] -
-                          chord_of_arc(samples.tangent[i - 1], samples.tangent[i],
-                                       samples.arc[i] - samples.arc[i - 1]);
+      const Vec3 misfit = position[i] - position[i - 1] - measured_step(samples, c, i);
       sum += dot(misfit, misfit);
       count += 1.0;
     }

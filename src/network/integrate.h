@@ -22,6 +22,8 @@ struct SensorSamples {
   uint32_t points = 0;
   Span<const double> arc;    // ascending along each curve
   Span<const Vec3> tangent;  // unit
+  // Of each curve: its tangents are the directions to the next samples, not those at the samples.
+  Span<const uint8_t> to_next;
 };
 
 // `residual`: the root mean square of the steps' misfit, per sample.
