@@ -326,16 +326,6 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
 
 // ---- Output -------------------------------------------------------------------------------------
 
-const double* write_vectors(unsigned char* block, size_t offset, Span<const Vec3> values,
-                                   const Scale& scale) {
-  double* out = reinterpret_cast<double*>(block + offset);
-  for (size_t i = 0; i < values.size(); ++i) {
-    const Vec3 v = scale(values[i]);
-    out[3 * i] = v.x, out[3 * i + 1] = v.y, out[3 * i + 2] = v.z;
-  }
-  return out;
-}
-
 static const uint32_t* write_indices(unsigned char* block, size_t offset,
                                      const Array<uint32_t>& values) {
   if (values.empty()) return nullptr;

@@ -66,7 +66,14 @@ Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal)
 // The power of two that brings the extent of the points to one half up to one.
 Status find_scale(Span<const Vec3> points, int* exponent);
 
-const double* write_vectors(unsigned char* block, size_t offset, Span<const Vec3> values,
-                            const Scale& scale);
+inline const double* write_vectors(unsigned char* block, size_t offset, Span<const Vec3> values,
+                                   const Scale& scale) {
+  double* out = reinterpret_cast<double*>(block + offset);
+  for (size_t i = 0; i < values.size(); ++i) {
+    const Vec3 v = scale(values[i]);
+    out[3 * i] = v.x, out[3 * i + 1] = v.y, out[3 * i + 2] = v.z;
+  }
+  return out;
+}
 
 }  // namespace wireskin::api
