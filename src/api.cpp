@@ -1,10 +1,10 @@
 // The C boundary: checks the caller's arrays, scales them, runs the pipeline, undoes the scaling
-// and fills result and report. The only file that sees both the public header and the inside.
+// and fills result and report. Only this file and those in api/ see both the public header and the
+// inside.
 #include <cstdlib>
 
-#include "num/scale.h"
+#include "api/boundary.h"
 #include "surface.h"
-#include "wireskin.h"
 
 // One block of the caller's memory holds the handle and, behind it, all arrays of the view.
 struct wsk_surface {
@@ -21,14 +21,6 @@ static_assert(static_cast<int>(Code::open_network) == WSK_ERROR_OPEN_NETWORK);
 static_assert(static_cast<int>(Stage::result) == WSK_STAGE_RESULT);
 static_assert(static_cast<int>(smooth::Method::fair) == WSK_METHOD_FAIR);
 
-// Structs of the first release; a smaller size means that the caller forgot to initialise.
-static constexpr size_t k_options_size = offsetof(wsk_options, now_user) + sizeof(void*);
-static constexpr size_t k_report_size = offsetof(wsk_report, total_ms) + sizeof(double);
-
-static size_t least(size_t a, size_t b) {
-  return a < b ? a : b;
-}
-
 // ---- Options and report -------------------------------------------------------------------------
 
 static void* allocate_by_malloc(size_t bytes, void*) {
@@ -38,7 +30,7 @@ static void release_by_free(void* memory, size_t, void*) {
   std::free(memory);
 }
 
-static Status read_options(const wsk_options* given, wsk_options* options) {
+Status read_options(const wsk_options* given, wsk_options* options) {
   wsk_options_init(options, sizeof *options);
   if (given == nullptr) return {};
   if (given->size < k_options_size) {
@@ -66,12 +58,12 @@ static Status read_options(const wsk_options* given, wsk_options* options) {
   return {};
 }
 
-static Allocator allocator_of(const wsk_options& options) {
+Allocator allocator_of(const wsk_options& options) {
   if (options.allocate == nullptr) return {allocate_by_malloc, release_by_free, nullptr};
   return {options.allocate, options.release, options.allocator_user};
 }
 
-static Callbacks callbacks_of(const wsk_options& options) {
+Callbacks callbacks_of(const wsk_options& options) {
   return {options.cancel,        options.cancel_user, options.progress,
           options.progress_user, options.now,         options.now_user};
 }
@@ -114,7 +106,7 @@ static void report_counts(const Counts& counts, const Scale& unscale, wsk_report
   report->dihedral_max_deg = counts.dihedral.greatest;
 }
 
-static void report_costs(Context& context, wsk_report* report) {
+void report_costs(Context& context, wsk_report* report) {
   context.stop_clock();
   report->stage = static_cast<wsk_stage>(context.stage());
   report->peak_bytes = context.peak_bytes();
@@ -126,7 +118,7 @@ static void report_costs(Context& context, wsk_report* report) {
 }
 
 // Copies the report out, as much of it as the caller's version has.
-static wsk_status finish(const Status& status, wsk_report* report, wsk_report* out) {
+wsk_status finish(const Status& status, wsk_report* report, wsk_report* out) {
   report_status(status, report);
   if (out != nullptr) {
     const size_t size = out->size;
@@ -139,19 +131,6 @@ static wsk_status finish(const Status& status, wsk_report* report, wsk_report* o
 
 // ---- Input --------------------------------------------------------------------------------------
 
-// Rows of three doubles at any stride, aligned or not.
-struct Rows {
-  const double* data;
-  size_t stride;
-
-  Vec3 operator[](size_t i) const {
-    double row[3];
-    const size_t step = stride == 0 ? sizeof row : stride;
-    std::memcpy(row, reinterpret_cast<const unsigned char*>(data) + i * step, sizeof row);
-    return {row[0], row[1], row[2]};
-  }
-};
-
 static bool has_nan(const Vec3& a) {
   return a.x != a.x || a.y != a.y || a.z != a.z;
 }
@@ -159,7 +138,7 @@ static bool finite(const Vec3& a) {
   return a.x - a.x == 0.0 && a.y - a.y == 0.0 && a.z - a.z == 0.0;
 }
 
-static double greatest_component(const Vec3& a) {
+double greatest_component(const Vec3& a) {
   const double x = std::fabs(a.x), y = std::fabs(a.y), z = std::fabs(a.z);
   const double xy = x > y ? x : y;
   return xy > z ? xy : z;
@@ -173,12 +152,12 @@ static Status check_finite(const Vec3& a, const char* not_a_number, const char* 
 }
 
 // One position and normal, checked; the normal comes out unit whatever its length was.
-static Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position) {
+Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position) {
   *position = rows[i];
   return check_finite(*position, "the position is not a number", "the position is infinite", place);
 }
 
-static Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal) {
+Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal) {
   const Vec3 given = rows[i];
   TRY(check_finite(given, "the normal is not a number", "the normal is infinite", place));
   const double greatest = greatest_component(given);
@@ -189,7 +168,7 @@ static Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* 
 }
 
 // The power of two that brings the extent of the points to one half up to one.
-static Status find_scale(Span<const Vec3> points, int* exponent) {
+Status find_scale(Span<const Vec3> points, int* exponent) {
   Vec3 low = points[0], high = points[0];
   for (const Vec3& p : points) {
     low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
@@ -346,35 +325,6 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
 }
 
 // ---- Output -------------------------------------------------------------------------------------
-
-// Places one array after the other in a block, all aligned for double.
-class Layout {
- public:
-  explicit Layout(size_t bytes) { add(bytes); }
-  template <typename T>
-  size_t add_array(size_t count) {
-    return add(count * sizeof(T));
-  }
-  size_t bytes() const { return bytes_; }
-
- private:
-  size_t add(size_t bytes) {
-    const size_t offset = bytes_;
-    bytes_ += (bytes + 7) / 8 * 8;
-    return offset;
-  }
-  size_t bytes_ = 0;
-};
-
-static const double* write_vectors(unsigned char* block, size_t offset, Span<const Vec3> values,
-                                   const Scale& scale) {
-  double* out = reinterpret_cast<double*>(block + offset);
-  for (size_t i = 0; i < values.size(); ++i) {
-    const Vec3 v = scale(values[i]);
-    out[3 * i] = v.x, out[3 * i + 1] = v.y, out[3 * i + 2] = v.z;
-  }
-  return out;
-}
 
 static const uint32_t* write_indices(unsigned char* block, size_t offset,
                                      const Array<uint32_t>& values) {

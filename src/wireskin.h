@@ -440,6 +440,171 @@ WSK_API void wsk_surface_get_view(const wsk_surface* surface, wsk_surface_view* 
 /* Gives the memory back through the allocator that it came from. Null is allowed. */
 WSK_API void wsk_surface_free(wsk_surface* surface);
 
+/* ---- Raw curves -------------------------------------------------------------------------------
+ */
+
+typedef int32_t wsk_chain;
+
+enum {
+  /* Ends that meet in twos are joined, except where the caller made the joint himself, by a common
+     node number between two curves of more than two samples. */
+  WSK_CHAIN_AUTO = 0,
+  WSK_CHAIN_NONE = 1,
+  /* Joined there too. */
+  WSK_CHAIN_ALL = 2,
+  WSK_CHAIN_COUNT = 3
+};
+
+typedef struct wsk_connect_options {
+  size_t size; /* set by wsk_connect_options_init */
+
+  /* How far apart, in your units, curves may be that are meant to meet. Negative: only what
+     coincides is joined. 0 (the default): the median distance of neighbouring samples, at most a
+     hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused. */
+  double snap;
+  wsk_chain chain;
+  /* A turn by more than this is a corner: curves are not chained through it. 0 (the default): 60
+     degrees, or 35 where that is more than twice the turns at the samples next to it. */
+  double corner_deg;
+  /* Non-zero: the signs of the normals are not to be trusted and are made to agree. */
+  int32_t orient;
+  /* Its memory, cancel, progress and clock are used, nothing else; null: none of them. */
+  const wsk_options* options;
+} wsk_connect_options;
+
+/* As wsk_options_init. */
+void wsk_connect_options_init(wsk_connect_options* options, size_t size);
+
+typedef struct wsk_network wsk_network;
+
+/* A place on the caller's curves: a sample, or that part (0 to 1) of the way to the next one. */
+typedef struct wsk_place {
+  uint32_t curve;
+  uint32_t sample;
+  double part;
+  double position[3]; /* before anything was moved; 0 0 0 in a wsk_contradiction */
+} wsk_place;
+
+typedef int32_t wsk_snap_kind;
+
+enum { WSK_SNAP_END_END = 0, WSK_SNAP_END_INSIDE = 1, WSK_SNAP_INSIDE_INSIDE = 2 };
+
+/* Two places that were made one point. */
+typedef struct wsk_snap {
+  wsk_place a, b;
+  double distance;
+  wsk_snap_kind kind;
+} wsk_snap;
+
+/* Two normals that do not fit together: at one point, more than 45 degrees from the mean there; or
+   with wsk_connect_options.orient, whose signs could not be made to agree. */
+typedef struct wsk_contradiction {
+  wsk_place a, b;
+  double angle_deg;
+} wsk_contradiction;
+
+typedef struct wsk_network_counts {
+  uint32_t curves;
+  uint32_t samples;
+  uint32_t nodes;         /* points with more than one sample */
+  uint32_t dangling_ends; /* ends of open curves where no other curve is */
+  uint32_t components;    /* connected ones */
+  uint32_t open_gaps;     /* pairs of components nearer than the snapping tolerance */
+} wsk_network_counts;
+
+/* What a network holds. The arrays belong to it and live until it is freed. */
+typedef struct wsk_network_view {
+  size_t size; /* set by wsk_network_get_view */
+
+  uint32_t curve_count;
+  uint32_t sample_count;
+  uint32_t snap_count;
+  uint32_t contradiction_count;
+  const wsk_curve* curves; /* for wsk_build; a curve without normals has a null pointer there */
+  const uint32_t* first_sample; /* curve_count + 1: where each curve begins in the arrays below */
+  /* Where each sample was in the input: the caller's curve, his sample, and for samples made by
+     snapping that part of the way to the next one. */
+  const uint32_t* given_curve;
+  const uint32_t* given_sample;
+  const double* given_part;
+  const wsk_snap* snaps; /* in the order they were made, nearest first */
+  const wsk_contradiction* contradictions;
+  wsk_network_counts before;
+  wsk_network_counts after;
+  double tolerance;        /* the one used, in your units; 0 without snapping */
+  uint32_t filled_normals; /* samples that had no normal and got one */
+  uint32_t turned_normals; /* samples whose normal changed sign */
+  uint32_t curves_without_normals;
+  double residual; /* wsk_integrate: root mean square of what is missing between samples */
+} wsk_network_view;
+
+/* Makes a network of raw curves: fragments, two-point segments, curves that almost meet.
+ *
+ * Samples with the same node number are one point, as for wsk_build, and so are samples at exactly
+ * the same place. Fragments become curves through points at which two ends meet, unless there is a
+ * corner; closed curves are recognised. Then curves that come nearer to each other than options.snap
+ * are joined, nearest first: ends to ends, ends to the inside of curves, and the insides of curves of
+ * different components. Insides of one component are joined only where they cross: at a quarter of
+ * the tolerance, or at a hundredth where the network is one component without dangling ends
+ * already. Places that the network connects within four tolerances are left alone (loose ends:
+ * within four times their distance). Existing nodes stay where they are and the curves that come to
+ * them bend smoothly; an end comes to the inside of a curve; ends meet in the middle, and so do
+ * insides. A joint between samples becomes a sample.
+ *
+ * Normals may be null, or zero at samples where they are not known. A curve with some is completed
+ * along its length; one without any only where both its ends lie at nodes whose normals other
+ * curves know. At new joints normals are replaced by their mean.
+ *
+ * In the result every joint has a node number: the least that the caller gave there, or else one
+ * that he did not use. What needed nothing comes out as it went in, bit for bit and in the same
+ * order. Coinciding neighbours and other faults within a curve are left to wsk_build to complain
+ * of.
+ *
+ * `options` may be null (defaults); `report` may be null; of it only the status, its place, the
+ * counts of curves and nodes, and the costs are filled. On success *network is the result, to be
+ * given to wsk_network_free; on failure it is untouched. */
+wsk_status wsk_connect(const wsk_curve* curves, size_t curve_count,
+                       const wsk_connect_options* options, wsk_network** network,
+                       wsk_report* report);
+
+/* A curve as a shape sensor measures it: no positions, but directions along its arc length. */
+typedef struct wsk_sensor_curve {
+  size_t sample_count;
+  const double* arc_lengths; /* of each sample from the start, increasing, in your units; packed */
+  const double* tangents;    /* of any length but zero; strides in bytes, 0: 24 */
+  size_t tangent_stride;
+  const double* normals; /* may be null */
+  size_t normal_stride;
+  const uint32_t* nodes; /* as in wsk_curve */
+  /* Non-zero: the last sample is the first again (and is not in the result). */
+  int32_t closed;
+  int32_t boundary;
+  /* Non-zero: each tangent is the direction from its sample to the next, as in Stanko's .rawnet
+     files, and steps are straight. Zero: the direction at its sample, and steps are circular arcs. */
+  int32_t tangents_to_next;
+} wsk_sensor_curve;
+
+/* Finds the positions: those whose differences fit the tangents best (each step of arc length h
+ * with weight 1 / h), samples of the same node number being one point. The first sample of each
+ * connected component lies at the origin. The network has the curves in the same order; its
+ * residual is zero if the curves close exactly. For `options`, `network` and `report` see
+ * wsk_connect; of the options memory, cancel, progress and clock are used. T. Stanko, S. Hahmann,
+ * G.-P. Bonneau, N. Saguin-Sprynski, "Shape from sensors: Curve networks on surfaces from 3D
+ * orientations", 2017. */
+wsk_status wsk_integrate(const wsk_sensor_curve* curves, size_t curve_count,
+                         const wsk_options* options, wsk_network** network, wsk_report* report);
+
+/* As wsk_surface_get_view. */
+void wsk_network_get_view(const wsk_network* network, wsk_network_view* view, size_t size);
+
+/* Puts the caller's curves and samples into a report of wsk_build about this network's. A node that
+   has no number of the caller's is named by a curve and a sample instead. Null pointers are
+   allowed and do nothing. */
+void wsk_network_name_places(const wsk_network* network, wsk_report* report);
+
+/* As wsk_surface_free. */
+void wsk_network_free(wsk_network* network);
+
 /* The version of the library linked in, "major.minor.patch"; compare with WIRESKIN_VERSION_STRING.
  */
 WSK_API const char* wsk_version_string(void);

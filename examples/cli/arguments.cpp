@@ -66,6 +66,11 @@ options:
                      standard deviation in the units of the input
   --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
                      smoothed away
+  --snap LENGTH|auto|off
+                     curves that miss each other by no more than LENGTH are joined; auto (default)
+                     takes the median distance of neighbouring samples, at most a hundredth of
+                     the diagonal. What is connected stays as it is; the report lists every joint
+  --orient           the signs of the normals are not to be trusted: make them agree
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
                      written too, with the place of the fault, if the input cannot be read or no
                      surface can be built from it
@@ -116,6 +121,13 @@ void read_smoothing(const std::string& text, Arguments* arguments) {
   } else if (arguments->noise == 0.0) {
     arguments->smoothing = WSK_SMOOTHING_NONE;
   }
+}
+
+// auto, off, or a length.
+double snap_of(const std::string& text) {
+  if (text == "auto") return 0.0;
+  if (text == "off") return -1.0;
+  return length_of("--snap", text);
 }
 
 int axis_of(const std::string& name) {
@@ -192,6 +204,10 @@ bool take_option(Words& words, Arguments& arguments) {
   } else if (words.is("--soft")) {
     const std::string text = words.value();
     arguments.soft = text == "0" ? 0.0 : length_of("--soft", text);
+  } else if (words.is("--snap")) {
+    arguments.snap = snap_of(words.value());
+  } else if (words.is_flag("--orient")) {
+    arguments.orient = true;
   } else if (words.is("--method")) {
     arguments.method = method_of(words.value());
   } else if (words.is("--up")) {

@@ -26,6 +26,8 @@ struct Arguments {
   bool help = false;
   bool version = false;
   bool curves = false;  // write the curves beside the mesh
+  double snap = 0.0;    // the tolerance; 0: automatic, negative: off
+  bool orient = false;
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

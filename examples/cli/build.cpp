@@ -37,24 +37,6 @@ static size_t known_normals(const Network& network, const NetworkCurve& curve) {
   return known;
 }
 
-// The library wants the normals of a curve all or none. False, and a report that names the place,
-// if a smooth curve has some only.
-static bool normals_are_whole(const Network& network, wsk_report& report) {
-  for (size_t c = 0; c < network.curves.size(); ++c) {
-    const NetworkCurve& curve = network.curves[c];
-    const size_t known = known_normals(network, curve);
-    if (curve.sharp || known == 0 || known == curve.vertices.size()) continue;
-    size_t sample = 0;
-    while (network.normal_known(curve.vertices[sample])) ++sample;
-    report.status = WSK_ERROR_MISSING_NORMALS;
-    report.sentence = "this sample has no normal, though others of its curve have one";
-    report.curve = static_cast<uint32_t>(c);
-    report.sample = static_cast<uint32_t>(sample);
-    return false;
-  }
-  return true;
-}
-
 static std::vector<wsk_curve> curves_of(const Network& network, const Samples& samples) {
   std::vector<wsk_curve> curves;
   size_t first = 0;
@@ -80,6 +62,22 @@ static double milliseconds_now(void*) {
   return std::chrono::duration<double, std::milli>(now).count();
 }
 
+// Joins what almost meets; null, with the report, where the curves cannot be read.
+static std::unique_ptr<wsk_network, FreeNetwork> prepare(const std::vector<wsk_curve>& curves,
+                                                         const Arguments& arguments,
+                                                         const wsk_options& options,
+                                                         wsk_report* report) {
+  wsk_connect_options connect;
+  wsk_connect_options_init(&connect, sizeof connect);
+  connect.snap = arguments.snap;
+  connect.orient = arguments.orient ? 1 : 0;
+  connect.options = &options;
+  wsk_report_init(report, sizeof *report);
+  wsk_network* network = nullptr;
+  wsk_connect(curves.data(), curves.size(), &connect, &network, report);
+  return std::unique_ptr<wsk_network, FreeNetwork>(network);
+}
+
 BuildResult build_surface(const Network& network, const Arguments& arguments,
                           const BuildCallbacks& callbacks) {
   wsk_options options;
@@ -98,12 +96,17 @@ BuildResult build_surface(const Network& network, const Arguments& arguments,
   const Samples samples = gather_samples(network);
   const std::vector<wsk_curve> curves = curves_of(network, samples);
   BuildResult result;
+  result.prepared = prepare(curves, arguments, options, &result.report);
+  if (result.prepared == nullptr) return result;
+  wsk_network_view prepared;
+  wsk_network_get_view(result.prepared.get(), &prepared, sizeof prepared);
   wsk_report_init(&result.report, sizeof result.report);
-  if (!normals_are_whole(network, result.report)) return result;
   wsk_surface* surface = nullptr;
-  if (wsk_build(curves.data(), curves.size(), &options, &surface, &result.report) == WSK_OK) {
+  if (wsk_build(prepared.curves, prepared.curve_count, &options, &surface, &result.report) ==
+      WSK_OK) {
     result.surface.reset(surface);
   }
+  wsk_network_name_places(result.prepared.get(), &result.report);
   return result;
 }
 

@@ -14,8 +14,13 @@ struct FreeSurface {
   void operator()(wsk_surface* surface) const { wsk_surface_free(surface); }
 };
 
+struct FreeNetwork {
+  void operator()(wsk_network* network) const { wsk_network_free(network); }
+};
+
 struct BuildResult {
-  std::unique_ptr<wsk_surface, FreeSurface> surface;  // null if the status is not WSK_OK
+  std::unique_ptr<wsk_surface, FreeSurface> surface;   // null if the status is not WSK_OK
+  std::unique_ptr<wsk_network, FreeNetwork> prepared;  // null if not even the curves could be read
   wsk_report report;
 };
 

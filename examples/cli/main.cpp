@@ -22,6 +22,14 @@
 
 namespace wireskin_cli {
 
+static std::string report_of(const Arguments& arguments, const BuildResult& result,
+                             size_t line = 0) {
+  if (result.prepared == nullptr) return report_json(arguments, result.report, line);
+  wsk_network_view prepared;
+  wsk_network_get_view(result.prepared.get(), &prepared, sizeof prepared);
+  return report_json(arguments, result.report, line, &prepared);
+}
+
 // The report of what failed. What went wrong there is said before what goes wrong here.
 static void write_failure_report(const Arguments& arguments, const std::string& json,
                                  const std::string& line) {
@@ -47,15 +55,15 @@ static Network read_input(const Arguments& arguments) {
 }
 
 static void write_outputs(const Arguments& arguments, const Network& network,
-                          const wsk_surface_view& surface, const wsk_report& report) {
+                          const wsk_surface_view& surface, const BuildResult& result) {
   OutputFiles files;
   for (const std::string& output : arguments.outputs) {
     files.add(output, mesh_bytes(surface, output, arguments.curves));
   }
   if (!arguments.image.empty()) {
-    files.add(arguments.image, png_bytes(draw_picture(surface, network, arguments.up_axis)));
+    files.add(arguments.image, png_bytes(draw_picture(surface, arguments.up_axis)));
   }
-  const std::string json = report_json(arguments, report);
+  const std::string json = report_of(arguments, result);
   if (!arguments.report.empty()) files.add(arguments.report, json);
   if (!arguments.html.empty()) {
     const std::string title = std::filesystem::path(arguments.input).filename().string();
@@ -76,12 +84,12 @@ static void run(const Arguments& arguments) {
     const std::string line = failure_line(arguments.input, network, result.report) +
                              failure_hint(arguments, network, result.report);
     const size_t place = line_of(network, result.report);
-    write_failure_report(arguments, report_json(arguments, result.report, place), line);
+    write_failure_report(arguments, report_of(arguments, result, place), line);
     throw Failure(line);
   }
   wsk_surface_view surface;
   wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
-  write_outputs(arguments, network, surface, result.report);
+  write_outputs(arguments, network, surface, result);
   if (arguments.quiet) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::printf("%s: %lu vertices, %lu triangles, %lu patches, %.2f s\n",

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "camera.h"
 #include "raster.h"
@@ -64,18 +66,30 @@ void draw_surface(Canvas& canvas, const Camera& camera, const Vec3& isophotes,
   }
 }
 
+// The edges with one triangle, the lesser vertex first.
+std::set<std::pair<uint32_t, uint32_t>> border_edges(const wsk_surface_view& surface) {
+  std::set<std::pair<uint32_t, uint32_t>> border;
+  for (size_t h = 0; h < 3 * static_cast<size_t>(surface.triangle_count); ++h) {
+    const uint32_t a = surface.triangles[h];
+    const uint32_t b = surface.triangles[h % 3 == 2 ? h - 2 : h + 1];
+    const auto [place, fresh] = border.emplace(std::min(a, b), std::max(a, b));
+    if (!fresh) border.erase(place);
+  }
+  return border;
+}
+
 // The curves as the library resampled them lie exactly on the surface; the bias lets the nearer
 // half of their width show.
-void draw_curves(Canvas& canvas, const Camera& camera, const wsk_surface_view& surface,
-                 const Network& network) {
+void draw_curves(Canvas& canvas, const Camera& camera, const wsk_surface_view& surface) {
   const double radius = k_line_radius * k_samples;
+  const std::set<std::pair<uint32_t, uint32_t>> border = border_edges(surface);
   for (const bool boundary : {false, true}) {
     for (size_t e = 0; e < surface.curve_edge_count; ++e) {
-      const uint32_t curve = surface.curve_edge_curve[e];
-      if (network.curves[curve].boundary != boundary) continue;
-      const ScreenPoint a = camera.project(vec3_at(surface.positions, surface.curve_edges[2 * e]));
-      const ScreenPoint b =
-          camera.project(vec3_at(surface.positions, surface.curve_edges[2 * e + 1]));
+      const uint32_t from = surface.curve_edges[2 * e];
+      const uint32_t to = surface.curve_edges[2 * e + 1];
+      if ((border.count({std::min(from, to), std::max(from, to)}) != 0) != boundary) continue;
+      const ScreenPoint a = camera.project(vec3_at(surface.positions, from));
+      const ScreenPoint b = camera.project(vec3_at(surface.positions, to));
       draw_line(canvas, a, b, radius, 2.5 * radius, boundary ? k_boundary_colour : k_curve_colour);
     }
   }
@@ -132,7 +146,7 @@ Camera camera_of(const Frame& frame, const Extent& extent, double scale, int hei
 
 }  // namespace
 
-Image draw_picture(const wsk_surface_view& surface, const Network& network, int up_axis) {
+Image draw_picture(const wsk_surface_view& surface, int up_axis) {
   const std::array<Frame, 2> frames = choose_frames(surface, up_axis);
   const Extent extents[2] = {extent_in(frames[0], surface), extent_in(frames[1], surface)};
   const double scale = common_scale(extents[0], extents[1]);
@@ -143,7 +157,7 @@ Image draw_picture(const wsk_surface_view& surface, const Network& network, int 
     const Camera camera = camera_of(frames[i], extents[i], scale, height);
     Canvas canvas(k_samples * k_view_width, k_samples * height);
     draw_surface(canvas, camera, isophotes, surface);
-    draw_curves(canvas, camera, surface, network);
+    draw_curves(canvas, camera, surface);
     scale_down(canvas, static_cast<int>(i) * k_view_width, image);
   }
   return image;

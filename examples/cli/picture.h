@@ -2,16 +2,15 @@
 //
 // Isophotes are stripes of equal angle between the normal and a fixed direction: they are smooth
 // where curvature is, have kinks where only the normal is continuous, and break where it is not.
-// Boundary curves have a colour of their own, and so has the surface's inner side.
+// The border has a colour of their own, and so has the surface's inner side.
 #pragma once
 
 #include "image.h"
-#include "network.h"
 #include "wireskin.h"
 
 namespace wireskin_cli {
 
 // `up_axis` is 0, 1 or 2 for x, y or z.
-Image draw_picture(const wsk_surface_view& surface, const Network& network, int up_axis);
+Image draw_picture(const wsk_surface_view& surface, int up_axis);
 
 }  // namespace wireskin_cli

@@ -96,6 +96,67 @@ std::string stages_json(const wsk_report& report) {
   return stages.close();
 }
 
+std::string network_counts_json(const wsk_network_counts& counts) {
+  JsonObject json("    ");
+  json.count("curves", counts.curves);
+  json.count("samples", counts.samples);
+  json.count("nodes", counts.nodes);
+  json.count("dangling_ends", counts.dangling_ends);
+  json.count("components", counts.components);
+  json.count("open_gaps", counts.open_gaps);
+  return json.close();
+}
+
+std::string place_json(const wsk_place& place, bool with_point) {
+  std::string json = "{\"curve\": " + std::to_string(place.curve) +
+                     ", \"sample\": " + std::to_string(place.sample) + ", \"part\": ";
+  append_double(json, place.part);
+  if (with_point) {
+    for (int k = 0; k < 3; ++k) {
+      json += k == 0 ? ", \"point\": [" : ", ";
+      append_double(json, place.position[k]);
+    }
+    json += ']';
+  }
+  return json + '}';
+}
+
+// A list of objects, one a line.
+std::string list_json(const std::vector<std::string>& items) {
+  std::string json = "[";
+  for (size_t i = 0; i < items.size(); ++i) json += (i == 0 ? "\n      " : ",\n      ") + items[i];
+  return json + (items.empty() ? "]" : "\n    ]");
+}
+
+std::string preparation_json(const wsk_network_view& prepared) {
+  constexpr const char* k_kinds[] = {"end_end", "end_inside", "inside_inside"};
+  std::vector<std::string> snaps, contradictions;
+  for (uint32_t i = 0; i < prepared.snap_count; ++i) {
+    const wsk_snap& snap = prepared.snaps[i];
+    std::string json = "{\"kind\": \"" + std::string(k_kinds[snap.kind]) + "\", \"distance\": ";
+    append_double(json, snap.distance);
+    json += ", \"a\": " + place_json(snap.a, true) + ", \"b\": " + place_json(snap.b, true) + '}';
+    snaps.push_back(json);
+  }
+  for (uint32_t i = 0; i < prepared.contradiction_count; ++i) {
+    const wsk_contradiction& pair = prepared.contradictions[i];
+    std::string json = "{\"angle_deg\": ";
+    append_double(json, pair.angle_deg);
+    json += ", \"a\": " + place_json(pair.a, false) + ", \"b\": " + place_json(pair.b, false) + '}';
+    contradictions.push_back(json);
+  }
+  JsonObject json("  ");
+  json.number("tolerance", prepared.tolerance);
+  json.member("before", network_counts_json(prepared.before));
+  json.member("after", network_counts_json(prepared.after));
+  json.count("filled_normals", prepared.filled_normals);
+  json.count("turned_normals", prepared.turned_normals);
+  json.count("curves_without_normals", prepared.curves_without_normals);
+  json.member("snaps", list_json(snaps));
+  json.member("contradictions", list_json(contradictions));
+  return json.close();
+}
+
 // What the command itself knows stands beside the report.
 struct Outcome {
   const char* status;
@@ -105,7 +166,7 @@ struct Outcome {
 };
 
 std::string outcome_json(const Arguments& arguments, const wsk_report& report,
-                         const Outcome& outcome) {
+                         const Outcome& outcome, const wsk_network_view* prepared) {
   JsonObject json("");
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
@@ -143,23 +204,26 @@ std::string outcome_json(const Arguments& arguments, const wsk_report& report,
   json.count("peak_bytes", static_cast<long long>(report.peak_bytes));
   json.member("stage_ms", stages_json(report));
   json.number("total_ms", report.total_ms);
+  if (prepared != nullptr) json.member("preparation", preparation_json(*prepared));
   return json.close() + "\n";
 }
 
 }  // namespace
 
-std::string report_json(const Arguments& arguments, const wsk_report& report, size_t line) {
+std::string report_json(const Arguments& arguments, const wsk_report& report, size_t line,
+                        const wsk_network_view* prepared) {
   const bool silent = report.status == WSK_OK || report.sentence == nullptr;
   return outcome_json(arguments, report,
                       {wsk_status_name(report.status), wsk_stage_name(report.stage),
-                       silent ? "" : report.sentence, line});
+                       silent ? "" : report.sentence, line},
+                      prepared);
 }
 
 std::string read_failure_json(const Arguments& arguments, const ReadFailure& failure) {
   wsk_report report;
   wsk_report_init(&report, sizeof report);
   return outcome_json(arguments, report,
-                      {failure.status(), "reading", failure.sentence(), failure.line()});
+                      {failure.status(), "reading", failure.sentence(), failure.line()}, nullptr);
 }
 
 }  // namespace wireskin_cli

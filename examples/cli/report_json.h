@@ -11,8 +11,10 @@
 
 namespace wireskin_cli {
 
-// `line` of the input that the place of the report speaks of; 0 if there is none.
-std::string report_json(const Arguments& arguments, const wsk_report& report, size_t line = 0);
+// `line` of the input that the place of the report speaks of; 0 if there is none. `prepared` is the
+// network as it was surfaced; null if it was not prepared.
+std::string report_json(const Arguments& arguments, const wsk_report& report, size_t line = 0,
+                        const wsk_network_view* prepared = nullptr);
 
 // The same members for an input that could not be read: all counts are zero, the status is one of
 // those of ReadFailure.

@@ -47,6 +47,17 @@ TEST_CASE("defaults") {
   CHECK(arguments.up_axis == 2);
 }
 
+TEST_CASE("snapping and orientation") {
+  CHECK(parse_arguments({"in.net", "-o", "out.obj"}).snap == 0.0);
+  CHECK_FALSE(parse_arguments({"in.net", "-o", "out.obj"}).orient);
+  CHECK(parse_arguments({"in.net", "-o", "out.obj", "--snap", "auto"}).snap == 0.0);
+  CHECK(parse_arguments({"in.net", "-o", "out.obj", "--snap=off"}).snap < 0.0);
+  CHECK(parse_arguments({"in.net", "-o", "out.obj", "--snap", "0.5"}).snap == 0.5);
+  CHECK(parse_arguments({"in.net", "-o", "out.obj", "--orient"}).orient);
+  CHECK(complains_of({"in.net", "-o", "out.obj", "--snap", "-1"}, "--snap"));
+  CHECK(complains_of({"in.net", "-o", "out.obj", "--snap", "x"}, "--snap"));
+}
+
 TEST_CASE("each method by its name") {
   for (wsk_method method = 0; method < WSK_METHOD_COUNT; ++method) {
     const char* name = method_name(method);

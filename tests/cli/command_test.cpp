@@ -222,6 +222,34 @@ TEST_CASE("faults of reading end with 1, one line, and no file") {
   CHECK(run(folder, "none.net -o out.obj").err == "none.net: there is no such file\n");
 }
 
+TEST_CASE("a missing normal is filled in, a broken joint is snapped unless that is off") {
+  const ScratchFolder folder("command");
+  const std::string net = sphere_net(4);
+  write_file(folder / "hole.net",
+             with_line(net, 9, "0.7071067811865476 0.7071067811865476 0 0 0 0"));
+  Run r = run(folder, "hole.net -o a.obj --report a.json --method biharmonic");
+  CHECK(r.status == 0);
+  auto report = JsonReader(read_file(folder / "a.json")).values;
+  CHECK(report["preparation.filled_normals"] == "1");
+  CHECK(report["preparation.before.nodes"] == "6");
+  CHECK(report["preparation.after.nodes"] == "6");
+
+  const std::string lines =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.002 0 0\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n"
+      "vn 0 0 1\ng boundary\nl 1 2\nl 2 3\nl 3 4\nl 4 5\n";
+  write_file(folder / "gap.obj", lines);
+  r = run(folder, "gap.obj -o b.obj --report b.json --snap 0.01");
+  CHECK(r.status == 0);
+  report = JsonReader(read_file(folder / "b.json")).values;
+  CHECK(report["preparation.snaps.0.kind"] == "end_end");
+  CHECK(report["preparation.snaps.0.distance"] == "0.002");
+  CHECK(report["preparation.before.dangling_ends"] == "2");
+  CHECK(report["preparation.after.dangling_ends"] == "0");
+  r = run(folder, "gap.obj -o c.obj --snap off");
+  CHECK(r.status == 1);
+  CHECK(r.err.find("meeting another curve") != std::string::npos);
+}
+
 TEST_CASE("faults of the network: the place in one line and in the report, no surface") {
   const ScratchFolder folder("command");
   const std::string net = sphere_net(4);
@@ -232,8 +260,6 @@ TEST_CASE("faults of the network: the place in one line and in the report, no su
     const char* status;
     const char* message;
   } cases[] = {
-      {"no_normal.net", with_line(net, 9, "0.7071 0.7071 0 0 0 0"), "zero_normal",
-       "curve 0, sample 2: "},
       {"nan.net", with_line(net, 9, "nan 0 0 1 0 0"), "not_a_number", "curve 0, sample 2: "},
       {"inf.net", with_line(net, 9, "0 inf 0 1 0 0"), "infinite", "curve 0, sample 2: "},
       {"no_curves.net", "1\n0 0 0 0 0 1\n0\n", "empty", ""},

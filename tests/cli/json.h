@@ -44,6 +44,8 @@ class JsonReader {
     blanks();
     if (peek() == '{') {
       object(path);
+    } else if (peek() == '[') {
+      array(path);
     } else if (peek() == '"') {
       values[path] = string();
     } else if (peek() == '-' || (peek() >= '0' && peek() <= '9')) {
@@ -64,6 +66,16 @@ class JsonReader {
       value(inner);
     } while (took(','));
     need(took('}'), "end of object");
+  }
+  // Elements are "path.0", "path.1" ...
+  void array(const std::string& path) {
+    take();
+    if (took(']')) return;
+    size_t index = 0;
+    do {
+      value(path + "." + std::to_string(index++));
+    } while (took(','));
+    need(took(']'), "end of array");
   }
   std::string string() {
     std::string result;

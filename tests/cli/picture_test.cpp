@@ -91,7 +91,7 @@ TEST_CASE("a picture has a white border, stripes, and both kinds of curves") {
   Network network;
   network.curves.resize(2);
   network.curves[1].boundary = true;
-  const Image image = draw_picture(square.view(), network, 2);
+  const Image image = draw_picture(square.view(), 2);
   REQUIRE(image.width == 1600);
   REQUIRE(image.height >= 500);
   REQUIRE(image.height <= 1200);
@@ -120,7 +120,7 @@ TEST_CASE("the picture does not depend on the size or the place of the surface")
   Network network;
   network.curves.resize(2);
   Square square;
-  const Image image = draw_picture(square.view(), network, 2);
+  const Image image = draw_picture(square.view(), 2);
   for (double& x : square.positions) x *= 0x1p-300;
-  CHECK(draw_picture(square.view(), network, 2).rgb == image.rgb);
+  CHECK(draw_picture(square.view(), 2).rgb == image.rgb);
 }

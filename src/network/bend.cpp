@@ -1,0 +1,50 @@
+#include "network/bend.h"
+
+namespace wireskin::network {
+
+static constexpr double k_support = 16.0;
+
+// 1 at 0, 0 from 1 on, with vanishing first and second derivatives there.
+static double fade(double t) {
+  if (!(t < 1.0)) return 0.0;
+  return 1.0 - t * t * t * (10.0 - t * (15.0 - 6.0 * t));
+}
+
+// Spreads the displacement of pin `i` one way, until the next pin; `step` is 1 or -1.
+static void spread_pin(const Bend& bend, size_t i, bool forward) {
+  const size_t n = bend.arc.size();
+  const Vec3 shift = bend.displacement[i];
+  const double support = k_support * length(shift);
+  const auto walk = [&](const auto& visit) {
+    double wrapped = 0.0;
+    for (size_t k = i, steps = 0; steps < n; ++steps) {
+      const bool over = forward ? k + 1 == n : k == 0;
+      if (over && !bend.closed) return;
+      if (over) wrapped = bend.length;
+      k = forward ? (over ? 0 : k + 1) : (over ? n - 1 : k - 1);
+      const double away =
+          forward ? bend.arc[k] + wrapped - bend.arc[i] : bend.arc[i] + wrapped - bend.arc[k];
+      if (!visit(k, away)) return;
+    }
+  };
+  double reach = support;
+  walk([&](size_t k, double away) {
+    if (bend.pinned[k] && away < reach) reach = away;
+    return !bend.pinned[k] && away < support;
+  });
+  walk([&](size_t k, double away) {
+    if (bend.pinned[k] || !(away < reach)) return false;
+    bend.displacement[k] += fade(away / reach) * shift;
+    return true;
+  });
+}
+
+void bend_curve(const Bend& bend) {
+  for (size_t i = 0; i < bend.arc.size(); ++i) {
+    if (!bend.pinned[i] || bend.displacement[i] == Vec3{}) continue;
+    spread_pin(bend, i, true);
+    spread_pin(bend, i, false);
+  }
+}
+
+}  // namespace wireskin::network

@@ -1,0 +1,173 @@
+#include "network/orient.h"
+
+#include "base/sort.h"
+#include "num/trig.h"
+
+namespace wireskin::network {
+
+static bool is_known(const Vec3& normal) {
+  return normal != Vec3{};
+}
+
+Status orient_along(Wires* wires, Array<uint8_t>* turned, Array<Contradiction>* contradictions) {
+  TRY(turned->assign(wires->samples(), 0));
+  for (uint32_t c = 0; c < wires->curves(); ++c) {
+    if (wires->sharp[c]) continue;
+    uint32_t last = k_none, first = k_none;
+    Vec3 carried;
+    for (uint32_t i = wires->start[c]; i < wires->start[c + 1]; ++i) {
+      Vec3& normal = wires->normal[i];
+      if (last != k_none) {
+        carried = carry_normal(wires->position[i - 1], wires->position[i], carried);
+      }
+      if (!is_known(normal)) continue;
+      if (last != k_none && dot(carried, normal) < 0.0) {
+        normal = -normal;
+        (*turned)[i] = 1;
+      }
+      if (first == k_none) first = i;
+      last = i;
+      carried = normal;
+    }
+    if (!wires->closed[c] || last == first) continue;
+    const uint32_t end = wires->start[c + 1] - 1;
+    for (uint32_t i = last; i != first;) {
+      const uint32_t next = i == end ? wires->start[c] : i + 1;
+      carried = carry_normal(wires->position[i], wires->position[next], carried);
+      i = next;
+    }
+    if (dot(carried, wires->normal[first]) < 0.0) {
+      TRY(contradictions->push({wires->origin[last], wires->origin[first],
+                                angle_between(carried, wires->normal[first])}));
+    }
+  }
+  return {};
+}
+
+// Sets of curves whose signs relative to the set's first are known.
+class SignedSets {
+ public:
+  explicit SignedSets(Context& context) : parent_(context), opposite_(context) {}
+  Status reset(uint32_t size) {
+    TRY(parent_.resize(size));
+    TRY(opposite_.assign(size, 0));
+    for (uint32_t i = 0; i < size; ++i) parent_[i] = i;
+    return {};
+  }
+  // The set of i, and whether i is opposite to it.
+  uint32_t find(uint32_t i, bool* opposite) {
+    uint8_t sign = 0;
+    uint32_t root = i;
+    for (; parent_[root] != root; root = parent_[root]) sign ^= opposite_[root];
+    *opposite = sign != 0;
+    while (parent_[i] != root && i != root) {
+      const uint32_t above = parent_[i];
+      const uint8_t own = opposite_[i];
+      parent_[i] = root;
+      opposite_[i] = sign;
+      sign ^= own;
+      i = above;
+    }
+    return root;
+  }
+  void unite(uint32_t root_a, uint32_t root_b, bool opposite) {
+    const uint32_t low = root_a < root_b ? root_a : root_b;
+    const uint32_t high = root_a < root_b ? root_b : root_a;
+    parent_[high] = low;
+    opposite_[high] = opposite;
+  }
+
+ private:
+  Array<uint32_t> parent_;
+  Array<uint8_t> opposite_;
+};
+
+// Two samples at one point; agreement is that of their normals.
+struct Encounter {
+  uint32_t a, b;
+  double agreement;
+};
+
+static Status list_encounters(const Wires& wires, Span<const uint32_t> curve,
+                              Array<Encounter>* encounters) {
+  PointMembers members(wires.position.context());
+  TRY(list_members(wires, &members));
+  for (uint32_t p = 0; p < wires.points; ++p) {
+    uint32_t last = k_none;
+    for (uint32_t i : members[p]) {
+      if (!is_known(wires.normal[i]) || wires.sharp[curve[i]]) continue;
+      if (last != k_none) {
+        TRY(encounters->push({last, i, dot(wires.normal[last], wires.normal[i])}));
+      }
+      last = i;
+    }
+  }
+  sort(encounters->span(), [](const Encounter& x, const Encounter& y) {
+    const double p = std::fabs(x.agreement), q = std::fabs(y.agreement);
+    if (p != q) return p > q;
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  return {};
+}
+
+// What the samples of a component say about its sign.
+struct Vote {
+  uint32_t kept = 0, turned = 0;
+  uint32_t samples = 0;
+  Vec3 sum;          // of positions
+  double out = 0.0;  // how much normals point away from the middle
+};
+
+Status orient_across(Wires* wires, Span<uint8_t> turned, Array<Contradiction>* contradictions) {
+  Context& context = wires->position.context();
+  Array<uint32_t> curve(context);
+  Array<Encounter> encounters(context);
+  Array<Vote> votes(context);
+  SignedSets sets(context);
+  TRY(curve_of_samples(*wires, &curve));
+  TRY(list_encounters(*wires, curve.span(), &encounters));
+  TRY(sets.reset(wires->curves()));
+  TRY(votes.assign(wires->curves(), Vote{}));
+  for (const Encounter& e : encounters) {
+    bool a = false, b = false;
+    const uint32_t x = sets.find(curve[e.a], &a), y = sets.find(curve[e.b], &b);
+    const bool differ = (e.agreement < 0.0) != (a != b);
+    if (x != y) {
+      sets.unite(x, y, differ);
+    } else if (differ) {
+      TRY(contradictions->push({wires->origin[e.a], wires->origin[e.b],
+                                angle_between(wires->normal[e.a], wires->normal[e.b])}));
+    }
+  }
+  for (uint32_t i = 0; i < wires->samples(); ++i) {
+    bool opposite = false;
+    Vote& vote = votes[sets.find(curve[i], &opposite)];
+    vote.sum += wires->position[i];
+    ++vote.samples;
+    if (!is_known(wires->normal[i]) || wires->sharp[curve[i]]) continue;
+    if (opposite) {
+      wires->normal[i] = -wires->normal[i];
+      turned[i] ^= 1;
+    }
+    ++(turned[i] ? vote.turned : vote.kept);
+  }
+  for (uint32_t i = 0; i < wires->samples(); ++i) {
+    bool opposite = false;
+    Vote& vote = votes[sets.find(curve[i], &opposite)];
+    if (wires->sharp[curve[i]]) continue;
+    vote.out += dot(wires->position[i] - (1.0 / vote.samples) * vote.sum, wires->normal[i]);
+  }
+  for (uint32_t i = 0; i < wires->samples(); ++i) {
+    bool opposite = false;
+    const Vote& vote = votes[sets.find(curve[i], &opposite)];
+    if (!is_known(wires->normal[i]) || wires->sharp[curve[i]]) continue;
+    const bool undecided =
+        vote.kept < 2 * uint64_t{vote.turned} && vote.turned < 2 * uint64_t{vote.kept};
+    if (undecided ? !(vote.out < 0.0) : vote.kept >= vote.turned) continue;
+    wires->normal[i] = -wires->normal[i];
+    turned[i] ^= 1;
+  }
+  return {};
+}
+
+}  // namespace wireskin::network

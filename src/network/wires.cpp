@@ -1,0 +1,146 @@
+#include "network/wires.h"
+
+#include "base/sort.h"
+
+namespace wireskin::network {
+
+Status DisjointSets::reset(uint32_t size) {
+  TRY(parent_.resize(size));
+  for (uint32_t i = 0; i < size; ++i) parent_[i] = i;
+  return {};
+}
+
+uint32_t DisjointSets::find(uint32_t i) {
+  while (parent_[i] != i) {
+    parent_[i] = parent_[parent_[i]];
+    i = parent_[i];
+  }
+  return i;
+}
+
+bool DisjointSets::unite(uint32_t a, uint32_t b) {
+  a = find(a);
+  b = find(b);
+  if (a == b) return false;
+  (a < b ? parent_[b] : parent_[a]) = a < b ? a : b;
+  return true;
+}
+
+Status curve_of_samples(const Wires& wires, Array<uint32_t>* curve) {
+  TRY(curve->resize(wires.samples()));
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) (*curve)[i] = c;
+  }
+  return {};
+}
+
+Status reserve_wires(uint32_t curves, uint32_t samples, bool sharp, Wires* wires) {
+  TRY(wires->start.reserve(curves + size_t{1}));
+  TRY(wires->closed.reserve(curves));
+  TRY(wires->boundary.reserve(curves));
+  TRY(wires->sharp.reserve(curves));
+  TRY(wires->soft.reserve(curves));
+  TRY(wires->position.reserve(samples));
+  TRY(wires->normal.reserve(samples));
+  TRY(wires->point.reserve(samples));
+  TRY(wires->number.reserve(samples));
+  TRY(wires->origin.reserve(samples));
+  TRY(wires->along.reserve(samples));
+  return sharp ? wires->right.reserve(samples) : Status{};
+}
+
+static bool lies_before(const Vec3& a, const Vec3& b) {
+  if (a.x != b.x) return a.x < b.x;
+  if (a.y != b.y) return a.y < b.y;
+  return a.z < b.z;
+}
+
+// Unites samples whose caller's numbers agree; `order` is scratch.
+static void weld_numbers(const Wires& wires, Array<uint32_t>* order, DisjointSets* sets) {
+  order->clear();
+  for (uint32_t i = 0; i < wires.samples(); ++i) {
+    if (wires.number[i] != k_none) order->push_reserved(i);
+  }
+  const Span<const uint32_t> number = wires.number.span();
+  sort(order->span(), [number](uint32_t a, uint32_t b) {
+    return number[a] != number[b] ? number[a] < number[b] : a < b;
+  });
+  for (size_t k = 1; k < order->size(); ++k) {
+    if (number[(*order)[k]] == number[(*order)[k - 1]]) sets->unite((*order)[k], (*order)[k - 1]);
+  }
+}
+
+// Unites samples at the same place.
+static void weld_places(const Wires& wires, Array<uint32_t>* order, DisjointSets* sets) {
+  order->clear();
+  for (uint32_t i = 0; i < wires.samples(); ++i) order->push_reserved(i);
+  const Span<const Vec3> position = wires.position.span();
+  sort(order->span(), [position](uint32_t a, uint32_t b) {
+    if (position[a] != position[b]) return lies_before(position[a], position[b]);
+    return a < b;
+  });
+  for (size_t k = 1; k < order->size(); ++k) {
+    const uint32_t a = (*order)[k - 1], b = (*order)[k];
+    if (position[a] == position[b]) sets->unite(a, b);
+  }
+}
+
+Status weld(Wires* wires) {
+  Context& context = wires->position.context();
+  Array<uint32_t> order(context), name(context);
+  DisjointSets sets(context);
+  const uint32_t n = wires->samples();
+  TRY(order.reserve(n));
+  TRY(name.assign(n, k_none));
+  TRY(sets.reset(n));
+  TRY(wires->point.resize(n));
+  weld_numbers(*wires, &order, &sets);
+  TRY(context.checkpoint());
+  weld_places(*wires, &order, &sets);
+  wires->points = 0;
+  for (uint32_t i = 0; i < n; ++i) {
+    const uint32_t root = sets.find(i);  // the least, so it has its name already
+    if (name[root] == k_none) name[root] = wires->points++;
+    wires->point[i] = name[root];
+  }
+  return {};
+}
+
+Status list_members(const Wires& wires, PointMembers* members) {
+  TRY(members->first.assign(wires.points + size_t{1}, 0));
+  TRY(members->member.resize(wires.samples()));
+  for (uint32_t p : wires.point) ++members->first[p];
+  starts_from_counts(members->first.span());
+  for (uint32_t i = 0; i < wires.samples(); ++i) {
+    members->member[members->first[wires.point[i]]++] = i;
+  }
+  for (uint32_t p = wires.points; p > 0; --p) members->first[p] = members->first[p - 1];
+  members->first[0] = 0;
+  return {};
+}
+
+Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* counts) {
+  Context& context = wires.position.context();
+  PointMembers members(context);
+  Array<uint32_t> curve(context);
+  DisjointSets sets(context);
+  TRY(list_members(wires, &members));
+  TRY(curve_of_samples(wires, &curve));
+  TRY(sets.reset(wires.curves()));
+  TRY(component->assign(wires.curves(), k_none));
+  *counts = {wires.curves(), wires.samples(), 0, 0, 0};
+  for (uint32_t p = 0; p < wires.points; ++p) {
+    const Span<const uint32_t> own = members[p];
+    if (own.size() > 1) ++counts->nodes;
+    if (own.size() == 1 && wires.is_end(curve[own[0]], own[0])) ++counts->dangling;
+    for (uint32_t i : own) sets.unite(curve[own[0]], curve[i]);
+  }
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    const uint32_t root = sets.find(c);
+    if ((*component)[root] == k_none) (*component)[root] = counts->components++;
+    (*component)[c] = (*component)[root];
+  }
+  return {};
+}
+
+}  // namespace wireskin::network
