@@ -1,0 +1,127 @@
+#include "flow/delaunay_order.h"
+
+#include <cstring>
+
+#include "base/sort.h"
+#include "num/minmax.h"
+
+namespace wireskin::flow {
+
+struct PlaceKey {
+  uint64_t key;
+  uint32_t index;
+};
+
+static constexpr int k_place_bits = 20;
+
+static uint64_t bits_of(double x) {
+  const double positive_zero = x + 0.0;
+  uint64_t bits = 0;
+  std::memcpy(&bits, &positive_zero, sizeof bits);
+  return bits;
+}
+
+// The mixing of S. Vigna's splitmix64 (2015).
+static uint64_t mix(uint64_t z) {
+  z += 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return z ^ (z >> 31);
+}
+
+uint64_t hash_place(const Vec3& p, uint64_t seed) {
+  return mix(mix(mix(mix(seed) ^ bits_of(p.x)) ^ bits_of(p.y)) ^ bits_of(p.z));
+}
+
+// The lowest 21 bits, each followed by two zeros.
+static uint64_t spread_bits(uint64_t x) {
+  x = (x | x << 32) & 0x1f00000000ffffull;
+  x = (x | x << 16) & 0x1f0000ff0000ffull;
+  x = (x | x << 8) & 0x100f00f00f00f00full;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+  return (x | x << 2) & 0x1249249249249249ull;
+}
+
+// Where the curve through 2^20 cells a side passes the cell (x, y, z). Skilling turns the three
+// coordinates in place into the digits of the result.
+static uint64_t curve_place(uint32_t x, uint32_t y, uint32_t z) {
+  uint32_t axis[3] = {x, y, z};
+  constexpr uint32_t k_top = 1u << (k_place_bits - 1);
+  for (uint32_t bit = k_top; bit > 1; bit >>= 1) {
+    const uint32_t lower = bit - 1;
+    for (uint32_t& a : axis) {
+      if ((a & bit) != 0) {
+        axis[0] ^= lower;
+      } else {
+        const uint32_t exchange = (axis[0] ^ a) & lower;
+        axis[0] ^= exchange;
+        a ^= exchange;
+      }
+    }
+  }
+  axis[1] ^= axis[0];
+  axis[2] ^= axis[1];
+  uint32_t parity = 0;
+  for (uint32_t bit = k_top; bit > 1; bit >>= 1) {
+    if ((axis[2] & bit) != 0) parity ^= bit - 1;
+  }
+  for (uint32_t& a : axis) a ^= parity;
+  return spread_bits(axis[0]) << 2 | spread_bits(axis[1]) << 1 | spread_bits(axis[2]);
+}
+
+// Seven eighths of the points belong to the last round, seven eighths of the rest to the one
+// before, and so on, by lot drawn from the place.
+static uint64_t place_round(const Vec3& p, uint64_t last_round) {
+  uint64_t lot = hash_place(p, 0);
+  uint64_t round = last_round;
+  for (; round > 0 && (lot & 7) == 0; lot >>= 3) --round;
+  return round;
+}
+
+static void sort_places(Span<const Vec3> points, Array<PlaceKey>* keys) {
+  Vec3 low = points[0];
+  Vec3 high = points[0];
+  for (const Vec3& p : points) {
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
+  }
+  const double extent = larger(high.x - low.x, larger(high.y - low.y, high.z - low.z));
+  constexpr double k_cells = (1u << k_place_bits) - 1;
+  const double step = extent > 0.0 ? k_cells / extent : 0.0;
+  uint64_t last_round = 0;
+  for (size_t rest = points.size(); rest > 512; rest >>= 3) ++last_round;
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    const Vec3 cell = step * (points[i] - low);
+    const uint64_t place = curve_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y),
+                                       static_cast<uint32_t>(cell.z));
+    (*keys)[i] = {place_round(points[i], last_round) << (3 * k_place_bits) | place, i};
+  }
+  sort(keys->span(), [points](const PlaceKey& a, const PlaceKey& b) {
+    if (a.key != b.key) return a.key < b.key;
+    const Vec3& p = points[a.index];
+    const Vec3& q = points[b.index];
+    if (p.x != q.x) return p.x < q.x;
+    if (p.y != q.y) return p.y < q.y;
+    if (p.z != q.z) return p.z < q.z;
+    return a.index < b.index;
+  });
+}
+
+Status delaunay_order(Span<const Vec3> points, Array<uint32_t>* order, Array<uint32_t>* same_as) {
+  Array<PlaceKey> keys(order->context());
+  TRY(keys.resize(points.size()));
+  TRY(order->reserve(points.size()));
+  TRY(same_as->resize(points.size()));
+  order->clear();
+  if (points.empty()) return {};
+  sort_places(points, &keys);
+  for (const PlaceKey& key : keys) {
+    // Points at the same place have the same key, so they stand together.
+    const bool seen = !order->empty() && points[order->back()] == points[key.index];
+    if (!seen) order->push_reserved(key.index);
+    (*same_as)[key.index] = order->back();
+  }
+  return {};
+}
+
+}  // namespace wireskin::flow
