@@ -84,7 +84,7 @@ struct Complex {
 
 // Fewer than four different points give a complex without tetrahedra: three points one triangle
 // with the outside on both sides, two an edge. Points that span no volume even after the jitter are
-// the status `unconstrained`, coordinates that are not finite or beyond 2^150 `bad_argument`.
+// the status `bad_argument`, as are coordinates that are not finite or beyond 2^150.
 Status build_complex(Context& context, Span<const Vec3> points, const ComplexOptions& options,
                      Complex* complex);
 

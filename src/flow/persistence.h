@@ -1,5 +1,5 @@
-// Critical points of the distance from a point set, and the voids among them: which triangle closes
-// a void, which tetrahedron is the last of it to be filled, and how much the balls grow in between.
+// The voids that growing balls round the points enclose: which triangle closes a void, which
+// tetrahedron is the last of it to be filled, and how much the balls grow in between.
 //
 // In: a complex with its values. Out: every triangle is a creator (it closes a void, and is paired
 // with the tetrahedron that fills it) or a destroyer; voids by decreasing ratio. Valid for any
@@ -31,22 +31,5 @@ struct Persistence {
 };
 
 Status find_persistence(Context& context, const Complex& complex, Persistence* persistence);
-
-// Kinds of simplices that are swallowed alone, that is, where the topology of the union of balls
-// changes: minima (points), saddles of index 1 and 2, maxima.
-struct CriticalPoints {
-  explicit CriticalPoints(Context& context) : edge(context), triangle(context), tet(context) {}
-
-  uint32_t points = 0;  // different ones
-  Array<uint32_t> edge, triangle, tet;
-
-  // 1 wherever the values are those of a true radius function.
-  int64_t euler() const {
-    return static_cast<int64_t>(points) - static_cast<int64_t>(edge.size()) +
-           static_cast<int64_t>(triangle.size()) - static_cast<int64_t>(tet.size());
-  }
-};
-
-Status find_critical_points(Context& context, const Complex& complex, CriticalPoints* critical);
 
 }  // namespace wireskin::flow
