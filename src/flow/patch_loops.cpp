@@ -7,6 +7,8 @@ Status start_loops(const Complex& complex, PatchLoops* loops) {
   TRY(loops->first.resize(complex.edge_count()));
   TRY(loops->second.resize(complex.edge_count()));
   TRY(loops->passed.assign(complex.edge_count(), 0));
+  TRY(loops->border_first.resize(complex.point.size()));
+  TRY(loops->border_second.resize(complex.point.size()));
   return loops->seen.assign(complex.point.size(), 0);
 }
 
@@ -28,6 +30,22 @@ static void count_cells(const Complex& complex, Span<const uint32_t> patch, Patc
     }
   }
   loops->euler_characteristic = vertices - edges + static_cast<int32_t>(patch.size());
+}
+
+// The edges of the border at each vertex: those of an odd number of triangles, each noted once.
+static void link_border(const Complex& complex, Span<const uint32_t> patch, PatchLoops* loops) {
+  for (const uint32_t t : patch) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (loops->count[e] % 2 == 0 || loops->first[e] != t) continue;
+      for (uint32_t end = 0; end < 2; ++end) {
+        const uint32_t v = complex.edge[2 * size_t{e} + end];
+        const uint32_t at = loops->seen[v]++;
+        if (at == 1) loops->border_first[v] = e;
+        if (at == 2) loops->border_second[v] = e;
+      }
+    }
+  }
 }
 
 static void clear_cells(const Complex& complex, Span<const uint32_t> patch, PatchLoops* loops) {
@@ -106,22 +124,33 @@ struct BorderStep {
   uint32_t from, to;
 };
 
-// The edge of the border after this one: round its end, through the patch.
+// Round the end of an edge of the border, through the patch, to the next one.
+static void turn_round(const Complex& complex, const PatchLoops& loops, uint32_t pivot,
+                       BorderStep* next) {
+  for (size_t turns = 0; turns < complex.triangle_count(); ++turns) {
+    const uint32_t* const edge = &complex.triangle_edge[3 * size_t{next->triangle}];
+    const uint32_t* const vertex = &complex.triangle[3 * size_t{next->triangle}];
+    // Of the triangle's edges the two at the pivot are those not opposite to it.
+    for (uint32_t k = 0; k < 3; ++k) {
+      if (vertex[k] == pivot || edge[k] == next->edge) continue;
+      next->edge = edge[k];
+      break;
+    }
+    if (loops.count[next->edge] != 2) return;
+    next->triangle = loops.first[next->edge] == next->triangle ? loops.second[next->edge]
+                                                               : loops.first[next->edge];
+  }
+}
+
 static BorderStep next_on_border(const Complex& complex, const PatchLoops& loops,
                                  const BorderStep& at) {
   BorderStep next = at;
-  for (size_t turns = 0; turns < complex.triangle_count(); ++turns) {
-    const uint32_t* const edge = &complex.triangle_edge[3 * size_t{next.triangle}];
-    const uint32_t* const vertex = &complex.triangle[3 * size_t{next.triangle}];
-    // Of the triangle's edges the two at the pivot are those not opposite to it.
-    for (uint32_t k = 0; k < 3; ++k) {
-      if (vertex[k] == at.to || edge[k] == next.edge) continue;
-      next.edge = edge[k];
-      break;
-    }
-    if (loops.count[next.edge] != 2) break;
-    next.triangle =
-        loops.first[next.edge] == next.triangle ? loops.second[next.edge] : loops.first[next.edge];
+  if (loops.seen[at.to] == 3) {
+    const bool at_first = loops.border_first[at.to] == at.edge;
+    next.edge = at_first ? loops.border_second[at.to] : loops.border_first[at.to];
+    next.triangle = loops.first[next.edge];
+  } else {
+    turn_round(complex, loops, at.to, &next);
   }
   next.from = at.to;
   const uint32_t* const ends = &complex.edge[2 * size_t{next.edge}];
@@ -148,6 +177,7 @@ Status find_loops(const Complex& complex, const CurveEdges& curves, const Sample
   loops->open = false;
   TRY(loops->run_start.push(0));
   count_cells(complex, patch, loops);
+  link_border(complex, patch, loops);
   for (const uint32_t t : patch) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];

@@ -1,8 +1,8 @@
 // The boundary loops of a patch, as runs along arcs.
 //
 // In: the patch's triangles. Out: its loops, each beginning where a run does, the patch on their
-// left; its Euler characteristic; whether an edge of the border is off the curves. The walk turns
-// round vertices through the patch, so loops that touch at a vertex stay apart. Linear.
+// left; its Euler characteristic; whether an edge of the border is off the curves. Where loops
+// touch at a vertex the walk turns round it through the patch, so they stay apart. Linear.
 #pragma once
 
 #include "flow/patches.h"
@@ -14,10 +14,12 @@ struct PatchLoops {
   Array<LoopRun> run;
   int32_t euler_characteristic = 0;
   bool open = false;
-  // Scratch, clear between patches: the patch's triangles at each edge (count, and the places of
-  // two of them), marks of vertices.
+  // Scratch, clear between patches: the patch's triangles at each edge (count, and two of them);
+  // the border's edges at each vertex (likewise, one more than their number, 0 for no vertex of
+  // the patch).
   Array<uint32_t> count, first, second;
-  Array<uint8_t> seen, passed;
+  Array<uint32_t> seen, border_first, border_second;
+  Array<uint8_t> passed;
   Array<LoopRun> step;
 
   explicit PatchLoops(Context& context)
@@ -27,6 +29,8 @@ struct PatchLoops {
         first(context),
         second(context),
         seen(context),
+        border_first(context),
+        border_second(context),
         passed(context),
         step(context) {}
 };
