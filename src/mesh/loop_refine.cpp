@@ -28,6 +28,7 @@ struct LoopRefinement {
   Array<double> size;  // wished, of each point
   Array<uint32_t> twins;
   Array<uint32_t> suspect;  // half-edges that may have to be flipped
+  bool may_flip = true, may_relax = true;
 
   LoopRefinement(Context& context, uint32_t rim_vertices, double wished, Array<Vec3>* points,
                  Array<uint32_t>* triangles)
@@ -96,7 +97,7 @@ static bool joined(const LoopRefinement& r, uint32_t from_half_edge, uint32_t to
 
 static bool improves_by_flip(const LoopRefinement& r, uint32_t h) {
   constexpr double k_gain = 1e-9, k_least_facing = 0.5;
-  if (r.twins[h] == k_none) return false;
+  if (r.twins[h] == k_none || !r.may_flip) return false;
   const Diamond q = diamond_at(r, h);
   const double before =
       larger(greatest_cotangent(r, q.a, q.b, q.c), greatest_cotangent(r, q.b, q.a, q.d));
@@ -281,9 +282,10 @@ static void grade_sizes(LoopRefinement* r, const Stars& stars) {
 }
 
 static Status relax_and_flip(LoopRefinement* r, int tangential, int free, Stars* stars) {
+  if (!r->may_relax) tangential = free = 0;
   for (int sweep = 0; sweep < tangential; ++sweep) TRY(relax_inner(r, true, stars));
   for (int sweep = 0; sweep < free; ++sweep) TRY(relax_inner(r, false, stars));
-  grade_sizes(r, *stars);
+  if (r->may_relax) grade_sizes(r, *stars);
   return flip_everywhere(r);
 }
 
@@ -298,16 +300,8 @@ static void grade_rim(LoopRefinement* r) {
   }
 }
 
-static Status wish_sizes(LoopRefinement* r) {
-  TRY(r->size.assign(r->rim, 0.0));
+static Status limit_points(LoopRefinement* r) {
   double area = 0.0;
-  for (uint32_t v = 0; v < r->rim; ++v) {
-    const uint32_t next = v + 1 < r->rim ? v + 1 : 0;
-    const double edge = length(r->at(next) - r->at(v));
-    r->size[v] += 0.5 * edge;
-    r->size[next] += 0.5 * edge;
-  }
-  grade_rim(r);
   for (uint32_t h = 0; h < r->triangle->size(); h += 3) {
     area += 0.5 * length(cross(r->at(r->head(h)) - r->at(r->origin(h)),
                                r->at(r->apex(h)) - r->at(r->origin(h))));
@@ -321,29 +315,71 @@ static Status wish_sizes(LoopRefinement* r) {
   return {};
 }
 
-Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
-                   Array<uint32_t>* triangle) {
-  LoopRefinement r(context, rim, spacing, position, triangle);
-  Stars stars(context);
-  TRY(find_twins(rim, triangle->span(), &r.twins));
-  TRY(wish_sizes(&r));
-  TRY(flip_everywhere(&r));
+static Status wish_sizes(LoopRefinement* r) {
+  TRY(r->size.assign(r->rim, 0.0));
+  for (uint32_t v = 0; v < r->rim; ++v) {
+    const uint32_t next = v + 1 < r->rim ? v + 1 : 0;
+    const double edge = length(r->at(next) - r->at(v));
+    r->size[v] += 0.5 * edge;
+    r->size[next] += 0.5 * edge;
+  }
+  grade_rim(r);
+  return limit_points(r);
+}
+
+// Held points on the border wish the mean of the border's edges there, others the spacing.
+static Status wish_sizes_of_patch(LoopRefinement* r) {
+  TRY(r->size.assign(r->rim, 0.0));
+  for (uint32_t h = 0; h < r->twins.size(); ++h) {
+    if (r->twins[h] != k_none) continue;
+    const double edge = length(r->at(r->head(h)) - r->at(r->origin(h)));
+    r->size[r->origin(h)] += 0.5 * edge;
+    r->size[r->head(h)] += 0.5 * edge;
+  }
+  for (double& size : r->size) {
+    if (size == 0.0) size = r->spacing;
+  }
+  return limit_points(r);
+}
+
+static Status refine_all(LoopRefinement* r) {
+  Stars stars(r->suspect.context());
+  TRY(flip_everywhere(r));
   double level = 0.0;
-  for (uint32_t h = 0; h < r.twins.size(); ++h) level = larger(level, excess(r, h));
+  for (uint32_t h = 0; h < r->twins.size(); ++h) level = larger(level, excess(*r, h));
   size_t splits = 0;
   while (level * k_level > k_long_edge) {
     level *= k_level;
-    TRY(split_longer(&r, level, &splits));
-    TRY(relax_and_flip(&r, k_relaxing_sweeps_of_level, 0, &stars));
+    TRY(split_longer(r, level, &splits));
+    TRY(relax_and_flip(r, k_relaxing_sweeps_of_level, 0, &stars));
   }
   for (int pass = 0; pass < k_most_passes; ++pass) {
-    TRY(split_longer(&r, k_long_edge, &splits));
+    TRY(split_longer(r, k_long_edge, &splits));
     if (splits == 0) break;
-    TRY(relax_and_flip(&r, k_relaxing_sweeps_of_level, 0, &stars));
+    TRY(relax_and_flip(r, k_relaxing_sweeps_of_level, 0, &stars));
   }
-  TRY(relax_and_flip(&r, k_last_relaxing_sweeps, 0, &stars));
-  TRY(relax_and_flip(&r, 0, k_umbrella_sweeps, &stars));
-  return relax_and_flip(&r, k_last_relaxing_sweeps, 0, &stars);
+  TRY(relax_and_flip(r, k_last_relaxing_sweeps, 0, &stars));
+  TRY(relax_and_flip(r, 0, k_umbrella_sweeps, &stars));
+  return relax_and_flip(r, k_last_relaxing_sweeps, 0, &stars);
+}
+
+Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
+                   Array<uint32_t>* triangle) {
+  LoopRefinement r(context, rim, spacing, position, triangle);
+  TRY(find_twins(rim, triangle->span(), &r.twins));
+  TRY(wish_sizes(&r));
+  return refine_all(&r);
+}
+
+Status refine_patch(Context& context, double spacing, RefineEffort effort, Array<Vec3>* position,
+                    Array<uint32_t>* triangle) {
+  const uint32_t held = static_cast<uint32_t>(position->size());
+  LoopRefinement r(context, held, spacing, position, triangle);
+  r.may_flip = effort != RefineEffort::split;
+  r.may_relax = effort == RefineEffort::relax;
+  TRY(find_twins(held, triangle->span(), &r.twins));
+  TRY(wish_sizes_of_patch(&r));
+  return refine_all(&r);
 }
 
 }  // namespace wireskin::mesh
