@@ -1,6 +1,7 @@
 #include "flow/complex.h"
 
 #include "flow/delaunay.h"
+#include "flow/gabriel.h"
 #include "flow/jitter.h"
 #include "num/minmax.h"
 
@@ -164,7 +165,9 @@ static Vec3 centre_from_corner(const Vec3& u, const Vec3& v) {
 static void value_triangle(Complex* complex, uint32_t t) {
   const uint32_t* v = complex->triangle.data() + 3 * static_cast<size_t>(t);
   const Vec3& a = complex->point[v[0]];
-  const Vec3 centre = centre_from_corner(complex->point[v[1]] - a, complex->point[v[2]] - a);
+  const Vec3& b = complex->point[v[1]];
+  const Vec3& c = complex->point[v[2]];
+  const Vec3 centre = centre_from_corner(b - a, c - a);
   double value = dot(centre, centre);
   bool gabriel = value < k_infinity;  // false for a triangle that is a line to rounding
   double least = k_infinity;
@@ -174,8 +177,8 @@ static void value_triangle(Complex* complex, uint32_t t) {
     least = smaller(least, complex->tet_value[side]);
     uint32_t i = 0;
     while (complex->tet_triangle[4 * side + i] != t) ++i;
-    const Vec3 o = complex->point[complex->tet[4 * side + i]] - a;
-    if (dot(o, o) < 2.0 * dot(o, centre)) gabriel = false;
+    const Vec3& opposite = complex->point[complex->tet[4 * side + i]];
+    if (inside_triangle_ball(a, b, c, opposite)) gabriel = false;
   }
   if (!gabriel) value = k_infinity;
   complex->triangle_gabriel[t] = gabriel ? 1 : 0;
@@ -194,7 +197,7 @@ static void value_edge(Complex* complex, uint32_t e) {
     const uint32_t* w = complex->triangle.data() + 3 * static_cast<size_t>(t);
     const uint32_t third = w[0] != u && w[0] != v ? w[0] : w[1] != u && w[1] != v ? w[1] : w[2];
     const Vec3& p = complex->point[third];
-    if (dot(a - p, b - p) < 0.0) gabriel = false;
+    if (inside_edge_ball(a, b, p)) gabriel = false;
   }
   const double own = gabriel ? 0.25 * dot(b - a, b - a) : k_infinity;
   complex->edge_gabriel[e] = gabriel ? 1 : 0;

@@ -1,30 +1,30 @@
 #include "flow/critical.h"
 
+#include "flow/gabriel.h"
+
 namespace wireskin::flow {
 
-// A simplex that is swallowed together with another has a copy of its value, so equality of doubles
-// is the right question.
+// A maximum: the centre of the ball lies inside the tetrahedron, that is, no corner lies inside the
+// smallest ball of the opposite face.
 static bool critical_tet(const Complex& c, uint32_t t) {
+  const uint32_t* v = c.tet.data() + 4 * static_cast<size_t>(t);
   for (uint32_t i = 0; i < 4; ++i) {
-    if (c.triangle_value[c.tet_triangle[4 * t + i]] == c.tet_value[t]) return false;
+    const Vec3& p = c.point[v[(i + 1) & 3]];
+    const Vec3& q = c.point[v[(i + 2) & 3]];
+    const Vec3& r = c.point[v[(i + 3) & 3]];
+    if (inside_triangle_ball(p, q, r, c.point[v[i]])) return false;
   }
   return true;
 }
 
+// Gabriel and acute.
 static bool critical_triangle(const Complex& c, uint32_t t) {
-  const double value = c.triangle_value[t];
-  for (uint32_t k = 0; k < 2; ++k) {
-    if (c.tet_value_of(c.triangle_side[2 * t + k]) == value) return false;
-  }
-  for (uint32_t k = 0; k < 3; ++k) {
-    if (c.edge_value[c.triangle_edge[3 * t + k]] == value) return false;
-  }
-  return true;
-}
-
-static bool critical_edge(const Complex& c, uint32_t e) {
-  for (const uint32_t t : c.triangles_of(e)) {
-    if (c.triangle_value[t] == c.edge_value[e]) return false;
+  if (c.triangle_gabriel[t] == 0) return false;
+  const uint32_t* v = c.triangle.data() + 3 * static_cast<size_t>(t);
+  for (uint32_t i = 0; i < 3; ++i) {
+    const Vec3& p = c.point[v[(i + 1) % 3]];
+    const Vec3& q = c.point[v[(i + 2) % 3]];
+    if (inside_edge_ball(p, q, c.point[v[i]])) return false;
   }
   return true;
 }
@@ -38,7 +38,7 @@ Status find_critical_points(const Complex& complex, CriticalPoints* critical) {
     if (complex.same_as[i] == i) ++critical->points;
   }
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
-    if (critical_edge(complex, e)) TRY(critical->edge.push(e));
+    if (complex.edge_gabriel[e] != 0) TRY(critical->edge.push(e));
   }
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (critical_triangle(complex, t)) TRY(critical->triangle.push(t));
