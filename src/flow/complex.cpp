@@ -143,16 +143,21 @@ static Status make_edges(Complex* complex) {
   return {};
 }
 
-// Squared radius of the circumscribed ball; infinite where the tetrahedron is flat to rounding.
+// Squared radius of the circumscribed ball; infinite where the tetrahedron is flat to rounding. No
+// rounding error may make it less than what an edge allows.
 static double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a;
   const Vec3 v = c - a;
   const Vec3 w = d - a;
   const Vec3 vw = cross(v, w);
+  const double uu = dot(u, u);
+  const double vv = dot(v, v);
+  const double ww = dot(w, w);
   const double det = dot(u, vw);
-  const Vec3 sum = dot(u, u) * vw + dot(v, v) * cross(w, u) + dot(w, w) * cross(u, v);
+  const Vec3 sum = uu * vw + vv * cross(w, u) + ww * cross(u, v);
   const double squared = dot(sum, sum) / (4.0 * det * det);
-  return squared < k_infinity ? squared : k_infinity;
+  if (!(squared < k_infinity)) return k_infinity;
+  return larger(squared, 0.25 * larger(uu, larger(vv, ww)));
 }
 
 // The centre of the smallest circumscribed ball of a triangle, from corner a.
@@ -167,7 +172,9 @@ static void value_triangle(Complex* complex, uint32_t t) {
   const Vec3& a = complex->point[v[0]];
   const Vec3& b = complex->point[v[1]];
   const Vec3& c = complex->point[v[2]];
-  const Vec3 centre = centre_from_corner(b - a, c - a);
+  const Vec3 u = b - a;
+  const Vec3 w = c - a;
+  const Vec3 centre = centre_from_corner(u, w);
   double value = dot(centre, centre);
   bool gabriel = value < k_infinity;  // false for a triangle that is a line to rounding
   double least = k_infinity;
@@ -180,7 +187,7 @@ static void value_triangle(Complex* complex, uint32_t t) {
     const Vec3& opposite = complex->point[complex->tet[4 * side + i]];
     if (inside_triangle_ball(a, b, c, opposite)) gabriel = false;
   }
-  if (!gabriel) value = k_infinity;
+  value = gabriel ? larger(value, 0.25 * larger(dot(u, u), dot(w, w))) : k_infinity;
   complex->triangle_gabriel[t] = gabriel ? 1 : 0;
   complex->triangle_value[t] = smaller(value, least);
 }
