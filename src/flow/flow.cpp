@@ -17,10 +17,10 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
 }
 
 // Components of walls and curves, counted over all samples.
-static Status count_components(const Flow& flow, const Sheet& walls, uint32_t* components,
-                               int64_t* euler) {
+static Status count_components(Context& context, const Flow& flow, const Sheet& walls,
+                               uint32_t* components, int64_t* euler) {
   const Complex& complex = flow.complex;
-  Array<uint32_t> parent(complex.point.context());
+  Array<uint32_t> parent(context);
   TRY(parent.resize(complex.point.size()));
   int64_t vertices = 0, edges = 0, triangles = 0;
   for (uint32_t v = 0; v < parent.size(); ++v) {
@@ -46,11 +46,11 @@ static Status count_components(const Flow& flow, const Sheet& walls, uint32_t* c
   return {};
 }
 
-static Status count_topology(const Flow& flow, Reconstruction* result) {
+static Status count_topology(Context& context, const Flow& flow, Reconstruction* result) {
   const Sheet& walls = result->topology.walls;
-  Array<uint32_t> label(flow.complex.point.context());
+  Array<uint32_t> label(context);
   int64_t euler = 0;
-  TRY(count_components(flow, walls, &result->betti[0], &euler));
+  TRY(count_components(context, flow, walls, &result->betti[0], &euler));
   TRY(label_rooms(flow.complex, walls, &label));
   uint32_t rooms = 0;
   for (uint32_t i = 0; i < label.size(); ++i) rooms += label[i] == i;
@@ -75,7 +75,7 @@ Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptio
                         options.thicken, &result->topology));
   TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.persistence,
                   result->topology, &result->patches));
-  return count_topology(flow, result);
+  return count_topology(context, flow, result);
 }
 
 }  // namespace wireskin::flow

@@ -27,8 +27,9 @@ struct LoopRefinement {
   Array<uint32_t>* triangle;
   Array<double> size;  // wished, of each point
   Array<uint32_t> twins;
-  Array<uint32_t> suspect;  // half-edges that may have to be flipped
-  bool may_flip = true, may_relax = true;
+  Array<uint32_t> suspect;    // half-edges that may have to be flipped
+  Span<const uint32_t> name;  // of the held points; empty: all are different
+  bool may_relax = true;
 
   LoopRefinement(Context& context, uint32_t rim_vertices, double wished, Array<Vec3>* points,
                  Array<uint32_t>* triangles)
@@ -44,6 +45,9 @@ struct LoopRefinement {
   uint32_t head(uint32_t h) const { return (*triangle)[next_half_edge(h)]; }
   uint32_t apex(uint32_t h) const { return (*triangle)[previous_half_edge(h)]; }
   const Vec3& at(uint32_t v) const { return (*position)[v]; }
+  bool same(uint32_t u, uint32_t v) const {
+    return u == v || (u < name.size() && v < name.size() && name[u] == name[v]);
+  }
 };
 
 // The two triangles at a half-edge from a to b; c and d are opposite to it.
@@ -85,19 +89,19 @@ static double greatest_cotangent(const LoopRefinement& r, uint32_t i, uint32_t j
 static bool joined(const LoopRefinement& r, uint32_t from_half_edge, uint32_t to) {
   uint32_t h = from_half_edge;
   do {
-    if (r.head(h) == to || r.apex(h) == to) return true;
+    if (r.same(r.head(h), to) || r.same(r.apex(h), to)) return true;
     h = r.twins[previous_half_edge(h)];
   } while (h != k_none && h != from_half_edge);
   if (h == from_half_edge) return false;
   for (h = r.twins[from_half_edge]; h != k_none; h = r.twins[next_half_edge(h)]) {
-    if (r.apex(h) == to) return true;
+    if (r.same(r.apex(h), to)) return true;
   }
   return false;
 }
 
 static bool improves_by_flip(const LoopRefinement& r, uint32_t h) {
   constexpr double k_gain = 1e-9, k_least_facing = 0.5;
-  if (r.twins[h] == k_none || !r.may_flip) return false;
+  if (r.twins[h] == k_none) return false;
   const Diamond q = diamond_at(r, h);
   const double before =
       larger(greatest_cotangent(r, q.a, q.b, q.c), greatest_cotangent(r, q.b, q.a, q.d));
@@ -177,6 +181,7 @@ static double size_between(const LoopRefinement& r, uint32_t a, uint32_t b) {
 static double excess(const LoopRefinement& r, uint32_t h) {
   if (r.twins[h] == k_none) return 0.0;
   const Diamond q = diamond_at(r, h);
+  if (r.same(q.c, q.d)) return 0.0;
   const Vec3 middle = 0.5 * (r.at(q.a) + r.at(q.b));
   const double size = size_between(r, q.a, q.b);
   if (length(r.at(q.c) - middle) < k_close * size) return 0.0;
@@ -371,12 +376,12 @@ Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* 
   return refine_all(&r);
 }
 
-Status refine_patch(Context& context, double spacing, RefineEffort effort, Array<Vec3>* position,
-                    Array<uint32_t>* triangle) {
+Status refine_patch(Context& context, double spacing, bool relax, Span<const uint32_t> name,
+                    Array<Vec3>* position, Array<uint32_t>* triangle) {
   const uint32_t held = static_cast<uint32_t>(position->size());
   LoopRefinement r(context, held, spacing, position, triangle);
-  r.may_flip = effort != RefineEffort::split;
-  r.may_relax = effort == RefineEffort::relax;
+  r.name = name;
+  r.may_relax = relax;
   TRY(find_twins(held, triangle->span(), &r.twins));
   TRY(wish_sizes_of_patch(&r));
   return refine_all(&r);

@@ -18,16 +18,10 @@ namespace wireskin::mesh {
 Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
                    Array<uint32_t>* triangle);
 
-// How far the surface may be changed on the way.
-enum class RefineEffort : int32_t {
-  split = 0,       // stays where it is, point for point
-  split_flip = 1,  // edges between nearly flat triangles are flipped
-  relax = 2,       // and inner points move
-};
-
 // The same for any oriented manifold mesh: all points given are held, and so are the border's
-// edges, in whatever loops they come.
-Status refine_patch(Context& context, double spacing, RefineEffort effort, Array<Vec3>* position,
-                    Array<uint32_t>* triangle);
+// edges, in whatever loops they come. Points of one name are one place where the mesh was cut open:
+// no point is joined to two of them. Without `relax` inner points stay where splits put them.
+Status refine_patch(Context& context, double spacing, bool relax, Span<const uint32_t> name,
+                    Array<Vec3>* position, Array<uint32_t>* triangle);
 
 }  // namespace wireskin::mesh
