@@ -37,11 +37,17 @@ struct Builder {
   uint32_t hint = 0;  // a tetrahedron near the last point
 };
 
-static uint32_t ghost_corner(const Tetrahedron& t) {
-  for (uint32_t i = 0; i < 4; ++i) {
-    if (t.vertex[i] == k_infinite) return i;
-  }
-  return k_none;
+// Infinity is the only vertex number with the top bit.
+static bool is_ghost(const Tetrahedron& t) {
+  return ((t.vertex[0] | t.vertex[1] | t.vertex[2] | t.vertex[3]) >> 31) != 0;
+}
+
+// Without branches, for no processor could predict them.
+static uint32_t corner_of(const Tetrahedron& t, uint32_t vertex) {
+  const uint32_t second = t.vertex[1] == vertex ? 1 : 0;
+  const uint32_t third = t.vertex[2] == vertex ? 2 : 0;
+  const uint32_t fourth = t.vertex[3] == vertex ? 3 : 0;
+  return second | third | fourth;
 }
 
 // orient3d of a tetrahedron after p has replaced corner i: positive on the inner side of face i.
@@ -61,8 +67,8 @@ static bool ball_holds(const Builder& b, const Tetrahedron& t, const Vec3& p) {
 // behind it cuts out.
 static bool in_conflict(const Builder& b, uint32_t slot, const Vec3& p) {
   const Tetrahedron& t = b.tets[slot];
-  const uint32_t corner = ghost_corner(t);
-  if (corner == k_none) return ball_holds(b, t, p);
+  if (!is_ghost(t)) return ball_holds(b, t, p);
+  const uint32_t corner = corner_of(t, k_infinite);
   const double side = side_of_face(b, t, corner, p);
   if (side != 0.0) return side > 0.0;
   return ball_holds(b, b.tets[t.across[corner] >> 2], p);
@@ -73,8 +79,9 @@ static bool in_conflict(const Builder& b, uint32_t slot, const Vec3& p) {
 // circle.
 static uint32_t walk_to(const Builder& b, const Vec3& p) {
   uint32_t slot = b.hint;
-  const uint32_t corner = ghost_corner(b.tets[slot]);
-  if (corner != k_none) slot = b.tets[slot].across[corner] >> 2;
+  if (is_ghost(b.tets[slot])) {
+    slot = b.tets[slot].across[corner_of(b.tets[slot], k_infinite)] >> 2;
+  }
   uint32_t entry = k_none;
   while (true) {
     const Tetrahedron& t = b.tets[slot];
@@ -84,7 +91,7 @@ static uint32_t walk_to(const Builder& b, const Vec3& p) {
     const uint32_t next = t.across[exit];
     slot = next >> 2;
     entry = next & 3;
-    if (ghost_corner(b.tets[slot]) != k_none) return slot;
+    if (is_ghost(b.tets[slot])) return slot;
   }
 }
 
@@ -164,8 +171,7 @@ static uint32_t turn_round_edge(const Builder& b, uint32_t inner, uint32_t entry
     const uint32_t pivot = b.tets[slot].vertex[entry];
     slot = next >> 2;
     entry = next & 3;
-    exit = 0;
-    while (b.tets[slot].vertex[exit] != pivot) ++exit;
+    exit = corner_of(b.tets[slot], pivot);
   }
 }
 
@@ -237,11 +243,8 @@ static Status begin_with_simplex(Builder* b) {
   for (uint32_t i = 0; i < 4; ++i) {
     for (uint32_t k = 0; k < 4; ++k) {
       if (k == i) continue;
-      uint32_t at = 0;
-      while (b->tets[i + 1].vertex[at] != k) ++at;
-      uint32_t back = 0;
-      while (b->tets[k + 1].vertex[back] != i) ++back;
-      b->tets[i + 1].across[at] = 4 * (k + 1) + back;
+      const uint32_t back = corner_of(b->tets[k + 1], i);
+      b->tets[i + 1].across[corner_of(b->tets[i + 1], k)] = 4 * (k + 1) + back;
     }
   }
   return {};
@@ -255,7 +258,7 @@ static Status finish(Builder* b, Span<const uint32_t> order, Delaunay* delaunay)
   for (const uint32_t slot : b->vacant) place[slot] = k_none;
   uint32_t count = 0;
   for (uint32_t slot = 0; slot < slots; ++slot) {
-    const bool kept = place[slot] != k_none && ghost_corner(b->tets[slot]) == k_none;
+    const bool kept = place[slot] != k_none && !is_ghost(b->tets[slot]);
     place[slot] = kept ? count++ : k_none;
   }
   for (uint32_t slot = 0; slot < slots; ++slot) {
