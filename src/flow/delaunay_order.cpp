@@ -50,20 +50,19 @@ static uint64_t curve_place(uint32_t x, uint32_t y, uint32_t z) {
   for (uint32_t bit = k_top; bit > 1; bit >>= 1) {
     const uint32_t lower = bit - 1;
     for (uint32_t& a : axis) {
-      if ((a & bit) != 0) {
-        axis[0] ^= lower;
-      } else {
-        const uint32_t exchange = (axis[0] ^ a) & lower;
-        axis[0] ^= exchange;
-        a ^= exchange;
-      }
+      // Where the bit is set, turn axis 0 over; else exchange it with this one. Without branches,
+      // for the bits are as good as random.
+      const uint32_t set = (a & bit) != 0 ? ~0u : 0u;
+      const uint32_t exchange = (axis[0] ^ a) & lower & ~set;
+      axis[0] ^= exchange | (lower & set);
+      a ^= exchange;
     }
   }
   axis[1] ^= axis[0];
   axis[2] ^= axis[1];
   uint32_t parity = 0;
   for (uint32_t bit = k_top; bit > 1; bit >>= 1) {
-    if ((axis[2] & bit) != 0) parity ^= bit - 1;
+    parity ^= (axis[2] & bit) != 0 ? bit - 1 : 0;
   }
   for (uint32_t& a : axis) a ^= parity;
   return spread_bits(axis[0]) << 2 | spread_bits(axis[1]) << 1 | spread_bits(axis[2]);
