@@ -2,16 +2,7 @@
 // and fills result and report. The only file that sees both the public header and the inside.
 #include <cstdlib>
 
-#include "num/scale.h"
-#include "surface.h"
-#include "wireskin.h"
-
-// One block of the caller's memory holds the handle and, behind it, all arrays of the view.
-struct wsk_surface {
-  wireskin::Allocator allocator;
-  size_t bytes;
-  wsk_surface_view view;
-};
+#include "api_inside.h"
 
 namespace wireskin::api {
 
@@ -20,14 +11,6 @@ static_assert(static_cast<int>(Code::not_positive_definite) == WSK_ERROR_NOT_POS
 static_assert(static_cast<int>(Code::open_network) == WSK_ERROR_OPEN_NETWORK);
 static_assert(static_cast<int>(Stage::result) == WSK_STAGE_RESULT);
 static_assert(static_cast<int>(smooth::Method::fair) == WSK_METHOD_FAIR);
-
-// Structs of the first release; a smaller size means that the caller forgot to initialise.
-static constexpr size_t k_options_size = offsetof(wsk_options, now_user) + sizeof(void*);
-static constexpr size_t k_report_size = offsetof(wsk_report, total_ms) + sizeof(double);
-
-static size_t least(size_t a, size_t b) {
-  return a < b ? a : b;
-}
 
 // ---- Options and report -------------------------------------------------------------------------
 
@@ -38,7 +21,7 @@ static void release_by_free(void* memory, size_t, void*) {
   std::free(memory);
 }
 
-static Status read_options(const wsk_options* given, wsk_options* options) {
+Status read_options(const wsk_options* given, wsk_options* options) {
   wsk_options_init(options, sizeof *options);
   if (given == nullptr) return {};
   if (given->size < k_options_size) {
@@ -66,12 +49,12 @@ static Status read_options(const wsk_options* given, wsk_options* options) {
   return {};
 }
 
-static Allocator allocator_of(const wsk_options& options) {
+Allocator allocator_of(const wsk_options& options) {
   if (options.allocate == nullptr) return {allocate_by_malloc, release_by_free, nullptr};
   return {options.allocate, options.release, options.allocator_user};
 }
 
-static Callbacks callbacks_of(const wsk_options& options) {
+Callbacks callbacks_of(const wsk_options& options) {
   return {options.cancel,        options.cancel_user, options.progress,
           options.progress_user, options.now,         options.now_user};
 }
@@ -87,7 +70,7 @@ static void report_status(const Status& status, wsk_report* report) {
   report->triangle = status.place.triangle;
 }
 
-static void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report) {
+void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report) {
   report->curves = counts.curves;
   report->nodes = counts.nodes;
   report->segments = counts.segments;
@@ -114,7 +97,7 @@ static void report_counts(const Counts& counts, const Scale& unscale, wsk_report
   report->dihedral_max_deg = counts.dihedral.greatest;
 }
 
-static void report_costs(Context& context, wsk_report* report) {
+void report_costs(Context& context, wsk_report* report) {
   context.stop_clock();
   report->stage = static_cast<wsk_stage>(context.stage());
   report->peak_bytes = context.peak_bytes();
@@ -126,7 +109,7 @@ static void report_costs(Context& context, wsk_report* report) {
 }
 
 // Copies the report out, as much of it as the caller's version has.
-static wsk_status finish(const Status& status, wsk_report* report, wsk_report* out) {
+wsk_status finish(const Status& status, wsk_report* report, wsk_report* out) {
   report_status(status, report);
   if (out != nullptr) {
     const size_t size = out->size;
@@ -138,19 +121,6 @@ static wsk_status finish(const Status& status, wsk_report* report, wsk_report* o
 }
 
 // ---- Input --------------------------------------------------------------------------------------
-
-// Rows of three doubles at any stride, aligned or not.
-struct Rows {
-  const double* data;
-  size_t stride;
-
-  Vec3 operator[](size_t i) const {
-    double row[3];
-    const size_t step = stride == 0 ? sizeof row : stride;
-    std::memcpy(row, reinterpret_cast<const unsigned char*>(data) + i * step, sizeof row);
-    return {row[0], row[1], row[2]};
-  }
-};
 
 static bool has_nan(const Vec3& a) {
   return a.x != a.x || a.y != a.y || a.z != a.z;
@@ -173,12 +143,12 @@ static Status check_finite(const Vec3& a, const char* not_a_number, const char* 
 }
 
 // One position and normal, checked; the normal comes out unit whatever its length was.
-static Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position) {
+Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position) {
   *position = rows[i];
   return check_finite(*position, "the position is not a number", "the position is infinite", place);
 }
 
-static Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal) {
+Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal) {
   const Vec3 given = rows[i];
   TRY(check_finite(given, "the normal is not a number", "the normal is infinite", place));
   const double greatest = greatest_component(given);
@@ -189,7 +159,7 @@ static Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* 
 }
 
 // The power of two that brings the extent of the points to one half up to one.
-static Status find_scale(Span<const Vec3> points, int* exponent) {
+Status find_scale(Span<const Vec3> points, int* exponent) {
   Vec3 low = points[0], high = points[0];
   for (const Vec3& p : points) {
     low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
@@ -383,8 +353,7 @@ static const uint32_t* write_indices(unsigned char* block, size_t offset,
   return reinterpret_cast<const uint32_t*>(block + offset);
 }
 
-static Status make_handle(Context& context, const Surface& surface, int exponent,
-                          wsk_surface** out) {
+Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out) {
   const size_t n = surface.position.size(), triangles = surface.patch.size();
   Layout layout(sizeof(wsk_surface));
   const size_t positions = layout.add_array<double>(3 * n);
@@ -458,7 +427,7 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   }
   const CurveSet set = {storage.start.span(),  storage.position.span(), storage.normal.span(),
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
-                        storage.soft.span(),   storage.sharp.span(),   storage.right.span()};
+                        storage.soft.span(),   storage.sharp.span(),    storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
                              smoothing_of(options, scale)};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default

@@ -1,14 +1,19 @@
 #include "flow/flow.h"
 
+#include "num/minmax.h"
+
 namespace wireskin::flow {
 
 Status build_flow(Context& context, const Polylines& polylines, const FlowOptions& options,
                   Flow* flow) {
   TRY(context.enter(Stage::curves));
   TRY(find_arcs(context, polylines, &flow->arcs));
-  const double step =
-      options.sampling > 0.0 ? options.sampling : k_default_sampling * flow->arcs.diagonal;
-  TRY(sample_arcs(context, flow->arcs, step, &flow->samples));
+  flow->step = options.sampling;
+  if (!(flow->step > 0.0)) flow->step = k_default_sampling * flow->arcs.diagonal;
+  if (!(options.sampling > 0.0) && options.spacing > 0.0) {
+    flow->step = smaller(flow->step, options.spacing);
+  }
+  TRY(sample_arcs(context, flow->arcs, flow->step, &flow->samples));
   TRY(find_tangents(flow->samples, &flow->tangents));
   TRY(context.enter(Stage::network));
   TRY(build_complex(context, flow->samples.position.span(), options.complex, &flow->complex));

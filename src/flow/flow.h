@@ -15,11 +15,15 @@ namespace wireskin::flow {
 inline constexpr double k_default_sampling = 0.02;  // of the diagonal
 
 struct FlowOptions {
-  double sampling = 0.0;  // greatest step, a length; 0: k_default_sampling
+  // The greatest step, a length; 0: k_default_sampling, or the spacing of the result if that is
+  // less.
+  double sampling = 0.0;
+  double spacing = 0.0;
   ComplexOptions complex;
 };
 
 struct Flow {
+  double step = 0.0;  // the greatest between samples
   Arcs arcs;
   Samples samples;
   Complex complex;
