@@ -6,9 +6,10 @@
 // decide at random, are rare. Out: `Complex`, the same for any order of the points but for their
 // numbers. Values are monotone by construction for any rounding error (edge <= triangle <=
 // tetrahedron): a simplex that is swallowed together with a larger one has a copy of its bits.
-// Cost: that of Delaunay (delaunay.h), then linear; about 190 bytes a tetrahedron.
-// Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014;
-// U. Bauer, H. Edelsbrunner, "The Morse Theory of Cech and Delaunay Complexes", 2017.
+// Cost: that of Delaunay (delaunay.h), then linear; about 190 bytes a tetrahedron, twice that while
+// it is built.
+// Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014; U.
+// Bauer, H. Edelsbrunner, "The Morse Theory of Cech and Delaunay Complexes", 2017.
 #pragma once
 
 #include "base/array.h"
@@ -17,9 +18,9 @@
 namespace wireskin::flow {
 
 struct ComplexOptions {
-  double jitter = 1e-7;            // of the diagonal of the bounding box; 0: the points as they are
-  uint64_t seed = 0;               // another draw of the jitter
-  uint32_t most_tets = 2'000'000;  // more is the status `too_large`
+  double jitter = 1e-7;          // of the diagonal of the bounding box; 0: the points as they are
+  uint64_t seed = 0;             // another draw of the jitter
+  uint32_t most_tets = 2000000;  // more is the status `too_large`
 };
 
 // Local numbering: neighbour, triangle and edge number i lie opposite to vertex number i. "Outside"

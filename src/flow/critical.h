@@ -4,9 +4,9 @@
 // In: a complex. The question is asked of its points (gabriel.h), not of its rounded values, so the
 // answer is right without a jitter, too, where no exact ties are. Out: minima (the points), saddles
 // of index 1 (edges) and 2 (triangles), and maxima (tetrahedra), in the order of their numbers. The
-// maximum at infinity is not counted. Source: D. Siersma, "Voronoi Diagrams and Morse Theory of the
-// Distance Function", 1999; U. Bauer, H. Edelsbrunner, "The Morse Theory of Cech and Delaunay
-// Complexes", 2017.
+// maximum at infinity is not counted.
+// Source: D. Siersma, "Voronoi Diagrams and Morse Theory of the Distance Function", 1999; U. Bauer,
+// H. Edelsbrunner, "The Morse Theory of Cech and Delaunay Complexes", 2017.
 #pragma once
 
 #include "flow/complex.h"

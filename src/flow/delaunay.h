@@ -1,16 +1,14 @@
 // The Delaunay triangulation of points in space: tetrahedra whose circumscribed balls hold no point
-// inside. Points are added one at a time; the tetrahedra in whose balls a point lies are replaced
-// by those that join it with their common hull.
+// inside. Points come one at a time; the tetrahedra in whose balls one lies make room for others.
 //
 // In: points, in any position; those at the same place are one. Out: positively oriented
-// tetrahedra, 32 bytes each, linked face to face. All decisions are exact (num/predicates3.h).
-// Where more than four points lie on one empty sphere, a point counts as outside the spheres of
-// those added before it: as if it were lifted by an infinitesimal far beyond theirs, so the result
-// is a triangulation, and depends on the places only, not on the numbers. Cost: about 4
-// microseconds a point where the result is linear, as it is for points on curves in general
-// position; quadratic at worst (two linked circles). Source: A. Bowyer, "Computing Dirichlet
-// Tessellations", 1981; D. F. Watson, 1981; H. Edelsbrunner, "An Acyclicity Theorem for Cell
-// Complexes in d Dimensions", 1990 (why every walk ends).
+// tetrahedra, 32 bytes each, linked face to face. All decisions are exact (num/predicates3.h). Of
+// more than four points on one empty sphere each counts as outside the spheres of those before it,
+// as if it were lifted by an infinitesimal far beyond theirs: the result is a triangulation, and
+// depends on the places only, not on the numbers.
+// Cost: about 4 microseconds a point where the result is linear; quadratic at worst.
+// Source: A. Bowyer, "Computing Dirichlet Tessellations", 1981; H. Edelsbrunner, "An Acyclicity
+// Theorem for Cell Complexes in d Dimensions", 1990 (why every walk ends).
 #pragma once
 
 #include "base/array.h"

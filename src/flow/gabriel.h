@@ -1,5 +1,5 @@
 // Whether a point lies inside the smallest circumscribed ball of an edge or a triangle: the signs
-// on which it rests which simplices are swallowed alone.
+// on which it rests which simplices growing balls round the points swallow alone.
 //
 // Decided in doubles where a bound on the rounding error proves the sign, else exactly where the
 // differences of the points are exact, else in pairs of doubles: then what is closer to the sphere
