@@ -260,7 +260,7 @@ static Status make_few(const Delaunay& delaunay, Complex* complex) {
 Status build_complex(Context& context, Span<const Vec3> points, const ComplexOptions& options,
                      Complex* complex) {
   *complex = Complex(context);
-  complex->diagonal = diagonal_of(points);
+  complex->diagonal = box_diagonal(points);
   TRY(complex->point.resize(points.size()));
   jitter_points(points, options.jitter, options.seed, complex->point.span());
   Delaunay delaunay(context);

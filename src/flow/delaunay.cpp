@@ -18,8 +18,8 @@ struct CavityFace {
   uint32_t fresh;  // the tetrahedron that is to stand on it
 };
 
-struct Builder {
-  explicit Builder(Context& context)
+struct DelaunayBuilder {
+  explicit DelaunayBuilder(Context& context)
       : point(context),
         tets(context),
         mark(context),
@@ -43,7 +43,7 @@ static bool is_ghost(const Tetrahedron& t) {
 }
 
 // Without branches, for no processor could predict them.
-static uint32_t corner_of(const Tetrahedron& t, uint32_t vertex) {
+static uint32_t tet_corner(const Tetrahedron& t, uint32_t vertex) {
   const uint32_t second = t.vertex[1] == vertex ? 1 : 0;
   const uint32_t third = t.vertex[2] == vertex ? 2 : 0;
   const uint32_t fourth = t.vertex[3] == vertex ? 3 : 0;
@@ -51,13 +51,14 @@ static uint32_t corner_of(const Tetrahedron& t, uint32_t vertex) {
 }
 
 // orient3d of a tetrahedron after p has replaced corner i: positive on the inner side of face i.
-static double side_of_face(const Builder& b, const Tetrahedron& t, uint32_t i, const Vec3& p) {
+static double side_of_face(const DelaunayBuilder& b, const Tetrahedron& t, uint32_t i,
+                           const Vec3& p) {
   const Vec3* v[4];
   for (uint32_t k = 0; k < 4; ++k) v[k] = k == i ? &p : b.point.data() + t.vertex[k];
   return orient3d(*v[0], *v[1], *v[2], *v[3]);
 }
 
-static bool ball_holds(const Builder& b, const Tetrahedron& t, const Vec3& p) {
+static bool ball_holds(const DelaunayBuilder& b, const Tetrahedron& t, const Vec3& p) {
   const Vec3* points = b.point.data();
   return insphere(points[t.vertex[0]], points[t.vertex[1]], points[t.vertex[2]],
                   points[t.vertex[3]], p) > 0.0;
@@ -65,10 +66,10 @@ static bool ball_holds(const Builder& b, const Tetrahedron& t, const Vec3& p) {
 
 // The ball of a ghost is the half-space beyond its hull face, and of the face's plane what the ball
 // behind it cuts out.
-static bool in_conflict(const Builder& b, uint32_t slot, const Vec3& p) {
+static bool in_conflict(const DelaunayBuilder& b, uint32_t slot, const Vec3& p) {
   const Tetrahedron& t = b.tets[slot];
   if (!is_ghost(t)) return ball_holds(b, t, p);
-  const uint32_t corner = corner_of(t, k_infinite);
+  const uint32_t corner = tet_corner(t, k_infinite);
   const double side = side_of_face(b, t, corner, p);
   if (side != 0.0) return side > 0.0;
   return ball_holds(b, b.tets[t.across[corner] >> 2], p);
@@ -77,10 +78,10 @@ static bool in_conflict(const Builder& b, uint32_t slot, const Vec3& p) {
 // A tetrahedron in conflict with p: the one that p lies in, or a ghost whose hull face sees p. The
 // walk crosses faces that have p behind them; in a Delaunay triangulation it never runs in a
 // circle.
-static uint32_t walk_to(const Builder& b, const Vec3& p) {
+static uint32_t walk_to(const DelaunayBuilder& b, const Vec3& p) {
   uint32_t slot = b.hint;
   if (is_ghost(b.tets[slot])) {
-    slot = b.tets[slot].across[corner_of(b.tets[slot], k_infinite)] >> 2;
+    slot = b.tets[slot].across[tet_corner(b.tets[slot], k_infinite)] >> 2;
   }
   uint32_t entry = k_none;
   while (true) {
@@ -96,7 +97,7 @@ static uint32_t walk_to(const Builder& b, const Vec3& p) {
 }
 
 // The tetrahedra whose balls hold p, connected across faces, and the faces round them.
-static Status find_cavity(Builder* b, uint32_t first, const Vec3& p) {
+static Status find_cavity(DelaunayBuilder* b, uint32_t first, const Vec3& p) {
   b->cavity.clear();
   b->outline.clear();
   TRY(b->cavity.push(first));
@@ -117,7 +118,7 @@ static Status find_cavity(Builder* b, uint32_t first, const Vec3& p) {
 }
 
 // Makes room for one tetrahedron on each face of the outline, and for the cavity among the vacant.
-static Status take_slots(Builder* b) {
+static Status take_slots(DelaunayBuilder* b) {
   size_t missing = b->outline.size();
   missing -= missing < b->vacant.size() ? missing : b->vacant.size();
   const size_t used = b->tets.size();
@@ -140,7 +141,7 @@ static Status take_slots(Builder* b) {
 }
 
 // Each new tetrahedron is the one inside the outline with its corner moved to p.
-static void raise_tets(Builder* b, uint32_t vertex) {
+static void raise_tets(DelaunayBuilder* b, uint32_t vertex) {
   for (const CavityFace& f : b->outline) {
     const uint32_t face = f.inner & 3;
     const Tetrahedron& inner = b->tets[f.inner >> 2];
@@ -158,7 +159,8 @@ static void raise_tets(Builder* b, uint32_t vertex) {
 // Turns round an edge of the outline, from `inner` out across face `exit`, until the cavity ends;
 // there stands the new tetrahedron to link with. `pivot` is the corner that is neither on the edge
 // nor on the face through which the next one is left.
-static uint32_t turn_round_edge(const Builder& b, uint32_t inner, uint32_t entry, uint32_t exit) {
+static uint32_t turn_round_edge(const DelaunayBuilder& b, uint32_t inner, uint32_t entry,
+                                uint32_t exit) {
   uint32_t slot = inner;
   while (true) {
     const uint32_t next = b.tets[slot].across[exit];
@@ -171,11 +173,11 @@ static uint32_t turn_round_edge(const Builder& b, uint32_t inner, uint32_t entry
     const uint32_t pivot = b.tets[slot].vertex[entry];
     slot = next >> 2;
     entry = next & 3;
-    exit = corner_of(b.tets[slot], pivot);
+    exit = tet_corner(b.tets[slot], pivot);
   }
 }
 
-static void link_tets(Builder* b) {
+static void link_tets(DelaunayBuilder* b) {
   for (const CavityFace& f : b->outline) {
     const uint32_t face = f.inner & 3;
     for (uint32_t k = 0; k < 4; ++k) {
@@ -187,7 +189,7 @@ static void link_tets(Builder* b) {
   }
 }
 
-static Status insert_point(Builder* b, uint32_t vertex) {
+static Status insert_point(DelaunayBuilder* b, uint32_t vertex) {
   const Vec3 p = b->point[vertex];
   TRY(find_cavity(b, walk_to(*b, p), p));
   TRY(take_slots(b));
@@ -227,7 +229,7 @@ static int bring_simplex_to_front(Span<uint32_t> order, Span<const Vec3> points)
 
 // The first tetrahedron in slot 0; the ghost across its face i in slot i + 1, with two corners
 // exchanged so that it is positively oriented.
-static Status begin_with_simplex(Builder* b) {
+static Status begin_with_simplex(DelaunayBuilder* b) {
   TRY(b->tets.resize(5));
   TRY(b->mark.assign(5, k_unseen));
   for (uint32_t i = 0; i < 5; ++i) b->tets[i] = {{0, 1, 2, 3}, {4, 8, 12, 16}};
@@ -243,15 +245,15 @@ static Status begin_with_simplex(Builder* b) {
   for (uint32_t i = 0; i < 4; ++i) {
     for (uint32_t k = 0; k < 4; ++k) {
       if (k == i) continue;
-      const uint32_t back = corner_of(b->tets[k + 1], i);
-      b->tets[i + 1].across[corner_of(b->tets[i + 1], k)] = 4 * (k + 1) + back;
+      const uint32_t back = tet_corner(b->tets[k + 1], i);
+      b->tets[i + 1].across[tet_corner(b->tets[i + 1], k)] = 4 * (k + 1) + back;
     }
   }
   return {};
 }
 
 // Drops ghosts and vacant slots and gives the vertices their numbers back.
-static Status finish(Builder* b, Span<const uint32_t> order, Delaunay* delaunay) {
+static Status finish(DelaunayBuilder* b, Span<const uint32_t> order, Delaunay* delaunay) {
   const uint32_t slots = static_cast<uint32_t>(b->tets.size());
   Array<uint32_t> place(delaunay->tets.context());
   TRY(place.assign(slots, 0));
@@ -300,7 +302,7 @@ Status triangulate(Context& context, Span<const Vec3> points, uint32_t most_tets
   delaunay->places = static_cast<uint32_t>(order.size());
   delaunay->dimension = bring_simplex_to_front(order.span(), points);
   if (delaunay->dimension < 3) return {};
-  Builder b(context);
+  DelaunayBuilder b(context);
   // Ghosts and vacant slots come on top of the tetrahedra of the result.
   b.most_tets = most_tets < k_most_tets ? most_tets : k_most_tets;
   TRY(b.point.resize(order.size()));

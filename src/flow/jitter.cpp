@@ -5,7 +5,7 @@
 
 namespace wireskin::flow {
 
-double diagonal_of(Span<const Vec3> points) {
+double box_diagonal(Span<const Vec3> points) {
   if (points.empty()) return 0.0;
   Vec3 low = points[0];
   Vec3 high = points[0];
@@ -29,7 +29,7 @@ static double moved_coordinate(double x, double by, double diagonal) {
 }
 
 void jitter_points(Span<const Vec3> points, double amount, uint64_t seed, Span<Vec3> moved) {
-  const double diagonal = diagonal_of(points);
+  const double diagonal = box_diagonal(points);
   const double reach = amount * diagonal;
   for (size_t i = 0; i < points.size(); ++i) {
     const Vec3& p = points[i];

@@ -13,7 +13,7 @@
 namespace wireskin::flow {
 
 // Of the bounding box.
-double diagonal_of(Span<const Vec3> points);
+double box_diagonal(Span<const Vec3> points);
 
 // `moved` has as many elements as `points`.
 void jitter_points(Span<const Vec3> points, double amount, uint64_t seed, Span<Vec3> moved);

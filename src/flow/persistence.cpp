@@ -14,8 +14,8 @@ struct TriangleKey {
 
 // Components of the complement of the balls as the radius shrinks: union-find over the tetrahedra
 // and, as the last node, the outside. Each root knows the maximum of its component.
-struct Voids {
-  explicit Voids(Context& context) : parent(context), maximum(context) {}
+struct VoidForest {
+  explicit VoidForest(Context& context) : parent(context), maximum(context) {}
 
   Array<uint32_t> parent;
   Array<uint32_t> maximum;
@@ -79,7 +79,7 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
   const uint32_t outside = complex.tet_count();
   Array<TriangleKey> keys(context);
   Array<uint32_t> maximum_of(context);
-  Voids voids(context);
+  VoidForest voids(context);
   TRY(sort_triangles(complex, &keys));
   TRY(maximum_of.assign(complex.triangle_count(), k_none));
   TRY(persistence->creator.assign(complex.triangle_count(), 0));

@@ -22,7 +22,7 @@ Points jittered(const Points& p, double amount, uint64_t seed) {
 TEST_CASE("points move by at most the amount, evenly, along each axis") {
   Random random(1);
   const Points p = random_points(3000, random);
-  const double reach = 1e-3 * flow::diagonal_of(view(p));
+  const double reach = 1e-3 * flow::box_diagonal(view(p));
   const Points moved = jittered(p, 1e-3, 0);
   Vec3 least, most, sum;
   for (size_t i = 0; i < p.size(); ++i) {
@@ -56,7 +56,7 @@ TEST_CASE("no amount keeps every point, a single place has no diagonal") {
   const Points moved = jittered(p, 0.0, 0);
   CHECK(moved[0] == p[0]);
   CHECK(moved[1] == p[1]);
-  CHECK(flow::diagonal_of({}) == 0.0);
-  CHECK(flow::diagonal_of(view(p)) == doctest::Approx(std::sqrt(0.81 + 3.24 + 7.29)));
+  CHECK(flow::box_diagonal({}) == 0.0);
+  CHECK(flow::box_diagonal(view(p)) == doctest::Approx(std::sqrt(0.81 + 3.24 + 7.29)));
   CHECK(jittered({{5, 5, 5}, {5, 5, 5}}, 1e-7, 0)[1] == Vec3{5, 5, 5});
 }
