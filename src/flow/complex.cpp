@@ -9,6 +9,8 @@ namespace wireskin::flow {
 
 static constexpr double k_infinity = HUGE_VAL;
 
+static constexpr uint32_t k_per_checkpoint = 1u << 17;
+
 // The corners of the face opposite to each corner, counter-clockwise seen from outside.
 static constexpr uint32_t k_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
@@ -35,13 +37,14 @@ uint32_t find_edge(const Complex& complex, uint32_t u, uint32_t v) {
   return low < complex.edge_first[u + 1] && complex.edge[2 * low + 1] == v ? low : k_none;
 }
 
-static Status take_tets(const Delaunay& delaunay, Complex* complex) {
+static Status take_tets(Context& context, const Delaunay& delaunay, Complex* complex) {
   const size_t count = delaunay.tets.size();
   TRY(complex->tet.resize(4 * count));
   TRY(complex->tet_neighbour.resize(4 * count));
   TRY(complex->tet_triangle.resize(4 * count));
   TRY(complex->tet_value.resize(count));
   for (size_t t = 0; t < count; ++t) {
+    if (t % k_per_checkpoint == 0) TRY(context.checkpoint());
     const Tetrahedron& tet = delaunay.tets[t];
     for (size_t i = 0; i < 4; ++i) {
       complex->tet[4 * t + i] = tet.vertex[i];
@@ -52,7 +55,7 @@ static Status take_tets(const Delaunay& delaunay, Complex* complex) {
 }
 
 // Each face once, from the lesser of its tetrahedra.
-static Status make_triangles(const Delaunay& delaunay, Complex* complex) {
+static Status make_triangles(Context& context, const Delaunay& delaunay, Complex* complex) {
   const uint32_t tet_count = static_cast<uint32_t>(delaunay.tets.size());
   size_t count = 0;
   for (uint32_t t = 0; t < tet_count; ++t) {
@@ -62,6 +65,7 @@ static Status make_triangles(const Delaunay& delaunay, Complex* complex) {
   TRY(complex->triangle_side.resize(2 * count));
   uint32_t next = 0;
   for (uint32_t t = 0; t < tet_count; ++t) {
+    if (t % k_per_checkpoint == 0) TRY(context.checkpoint());
     const Tetrahedron& tet = delaunay.tets[t];
     for (uint32_t i = 0; i < 4; ++i) {
       const uint32_t across = tet.across[i];
@@ -83,26 +87,22 @@ struct EdgeUse {
   uint32_t side;  // 3 * triangle + number of the opposite vertex
 };
 
-static uint32_t low_end(const EdgeUse& use) {
-  return use.low;
-}
-static uint32_t high_end(const EdgeUse& use) {
-  return use.high;
-}
-
 // A stable counting sort of `from` into `to`; afterwards first[v + 1] is the end of group v.
 template <typename Key>
-static void sort_uses(Span<const EdgeUse> from, const Key& key, Span<uint32_t> first,
-                      Span<EdgeUse> to) {
+static Status sort_uses(Context& context, Span<const EdgeUse> from, const Key& key,
+                        Span<uint32_t> first, Span<EdgeUse> to) {
   for (uint32_t& f : first) f = 0;
   for (const EdgeUse& use : from) ++first[key(use)];
   starts_from_counts(first);
-  for (const EdgeUse& use : from) to[first[key(use)]++] = use;
+  for (size_t i = 0; i < from.size(); ++i) {
+    if (i % k_per_checkpoint == 0) TRY(context.checkpoint());
+    to[first[key(from[i])]++] = from[i];
+  }
+  return {};
 }
 
 // All sides of triangles sorted by their ends: equal ones become an edge.
-static Status make_edges(Complex* complex) {
-  Context& context = complex->edge.context();
+static Status make_edges(Context& context, Complex* complex) {
   const uint32_t side_count = static_cast<uint32_t>(complex->triangle.size());
   const uint32_t vertex_count = static_cast<uint32_t>(complex->point.size());
   Array<EdgeUse> uses(context), sorted(context);
@@ -117,8 +117,11 @@ static Status make_edges(Complex* complex) {
     const uint32_t b = v[(side + 2) % 3];
     uses[side] = {a < b ? a : b, a < b ? b : a, side};
   }
-  sort_uses(uses.span(), high_end, complex->edge_first.span(), sorted.span());
-  sort_uses(sorted.span(), low_end, complex->edge_first.span(), uses.span());
+  const Span<uint32_t> first = complex->edge_first.span();
+  const auto low_end = [](const EdgeUse& use) { return use.low; };
+  const auto high_end = [](const EdgeUse& use) { return use.high; };
+  TRY(sort_uses(context, uses.span(), high_end, first, sorted.span()));
+  TRY(sort_uses(context, sorted.span(), low_end, first, uses.span()));
   uint32_t count = 0;
   const auto is_new = [&uses](uint32_t i) {
     return i == 0 || uses[i].low != uses[i - 1].low || uses[i].high != uses[i - 1].high;
@@ -129,6 +132,7 @@ static Status make_edges(Complex* complex) {
   for (uint32_t& f : complex->edge_first) f = 0;
   uint32_t next = 0;
   for (uint32_t i = 0; i < side_count; ++i) {
+    if (i % k_per_checkpoint == 0) TRY(context.checkpoint());
     if (is_new(i)) {
       complex->edge[2 * next] = uses[i].low;
       complex->edge[2 * next + 1] = uses[i].high;
@@ -212,7 +216,6 @@ static void value_edge(Complex* complex, uint32_t e) {
 }
 
 static Status set_values(Context& context, Complex* complex) {
-  constexpr uint32_t k_per_checkpoint = 1u << 16;
   const uint32_t triangles = static_cast<uint32_t>(complex->triangle.size() / 3);
   const uint32_t edges = static_cast<uint32_t>(complex->edge.size() / 2);
   TRY(complex->triangle_value.resize(triangles));
@@ -237,7 +240,7 @@ static Status set_values(Context& context, Complex* complex) {
 }
 
 // The complex of two or three places, which has no tetrahedra.
-static Status make_few(const Delaunay& delaunay, Complex* complex) {
+static Status make_few(Context& context, const Delaunay& delaunay, Complex* complex) {
   uint32_t place[3] = {k_none, k_none, k_none};
   uint32_t count = 0;
   for (uint32_t i = 0; i < delaunay.same_as.size(); ++i) {
@@ -248,7 +251,7 @@ static Status make_few(const Delaunay& delaunay, Complex* complex) {
     TRY(complex->triangle_side.assign(2, k_none));
     for (uint32_t k = 0; k < 3; ++k) complex->triangle[k] = place[k];
   }
-  TRY(make_edges(complex));
+  TRY(make_edges(context, complex));
   if (count != 2) return {};
   TRY(complex->edge.push(place[0]));
   TRY(complex->edge.push(place[1]));
@@ -266,13 +269,13 @@ Status build_complex(Context& context, Span<const Vec3> points, const ComplexOpt
   Delaunay delaunay(context);
   TRY(triangulate(context, complex->point.span(), options.most_tets, &delaunay));
   if (delaunay.dimension == 3) {
-    TRY(take_tets(delaunay, complex));
-    TRY(make_triangles(delaunay, complex));
-    TRY(context.checkpoint());
-    TRY(make_edges(complex));
+    TRY(take_tets(context, delaunay, complex));
+    TRY(make_triangles(context, delaunay, complex));
+    delaunay.tets.free();
+    TRY(make_edges(context, complex));
   } else {
     if (delaunay.places > 3) return fail(Code::bad_argument, "the points span no volume");
-    TRY(make_few(delaunay, complex));
+    TRY(make_few(context, delaunay, complex));
   }
   complex->same_as = static_cast<Array<uint32_t>&&>(delaunay.same_as);
   return set_values(context, complex);

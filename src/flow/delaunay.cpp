@@ -253,9 +253,10 @@ static Status begin_with_simplex(DelaunayBuilder* b) {
 }
 
 // Drops ghosts and vacant slots and gives the vertices their numbers back.
-static Status finish(DelaunayBuilder* b, Span<const uint32_t> order, Delaunay* delaunay) {
+static Status finish(Context& context, DelaunayBuilder* b, Span<const uint32_t> order,
+                     Delaunay* delaunay) {
   const uint32_t slots = static_cast<uint32_t>(b->tets.size());
-  Array<uint32_t> place(delaunay->tets.context());
+  Array<uint32_t> place(context);
   TRY(place.assign(slots, 0));
   for (const uint32_t slot : b->vacant) place[slot] = k_none;
   uint32_t count = 0;
@@ -263,6 +264,7 @@ static Status finish(DelaunayBuilder* b, Span<const uint32_t> order, Delaunay* d
     const bool kept = place[slot] != k_none && !is_ghost(b->tets[slot]);
     place[slot] = kept ? count++ : k_none;
   }
+  TRY(context.checkpoint());
   for (uint32_t slot = 0; slot < slots; ++slot) {
     if (place[slot] == k_none) continue;
     Tetrahedron t = b->tets[slot];
@@ -318,7 +320,7 @@ Status triangulate(Context& context, Span<const Vec3> points, uint32_t most_tets
     work = 0;
     TRY(context.checkpoint());
   }
-  return finish(&b, order.span(), delaunay);
+  return finish(context, &b, order.span(), delaunay);
 }
 
 }  // namespace wireskin::flow

@@ -1,5 +1,7 @@
 #include "flow/persistence.h"
 
+#include <cstring>
+
 #include "base/sort.h"
 #include "num/minmax.h"
 
@@ -7,8 +9,11 @@ namespace wireskin::flow {
 
 static constexpr double k_least_ratio = 1.0 + 1e-6;
 
+static constexpr int k_digit_bits = 11;
+static constexpr uint32_t k_digit_values = 1u << k_digit_bits;
+
 struct TriangleKey {
-  double value;
+  uint64_t bits;
   uint32_t triangle;
 };
 
@@ -37,14 +42,44 @@ static bool lower_maximum(const Complex& complex, uint32_t a, uint32_t b) {
   return fa != fb ? fa < fb : a < b;
 }
 
-static Status sort_triangles(const Complex& complex, Array<TriangleKey>* keys) {
-  TRY(keys->resize(complex.triangle_count()));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    (*keys)[t] = {complex.triangle_value[t], t};
+// Values are not negative, so the order of their bits is theirs; turned over, the greatest is
+// first.
+static uint64_t descending_bits(double value) {
+  uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return ~bits;
+}
+
+// One stable pass of radix sort, by the digit that starts at bit `shift`. False where all digits
+// are equal, and nothing was done.
+static bool sort_by_digit(Span<const TriangleKey> from, int shift, Span<TriangleKey> to) {
+  uint32_t first[k_digit_values] = {};
+  for (const TriangleKey& key : from) ++first[key.bits >> shift & (k_digit_values - 1)];
+  if (first[from[0].bits >> shift & (k_digit_values - 1)] == from.size()) return false;
+  starts_from_counts({first, k_digit_values});
+  for (const TriangleKey& key : from) to[first[key.bits >> shift & (k_digit_values - 1)]++] = key;
+  return true;
+}
+
+// By decreasing value, then number. The values of a million triangles take six passes and no
+// comparisons.
+static Status sort_triangles(Context& context, const Complex& complex, Array<TriangleKey>* keys) {
+  const uint32_t count = complex.triangle_count();
+  Array<TriangleKey> other(context);
+  TRY(keys->resize(count));
+  TRY(other.resize(count));
+  if (count == 0) return {};
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t t = count - 1 - i;
+    (*keys)[i] = {descending_bits(complex.triangle_value[t]), t};
   }
-  sort(keys->span(), [](const TriangleKey& a, const TriangleKey& b) {
-    return a.value != b.value ? a.value > b.value : a.triangle > b.triangle;
-  });
+  for (int shift = 0; shift < 64; shift += k_digit_bits) {
+    TRY(context.checkpoint());
+    if (!sort_by_digit(keys->span(), shift, other.span())) continue;
+    Array<TriangleKey> kept = static_cast<Array<TriangleKey>&&>(*keys);
+    *keys = static_cast<Array<TriangleKey>&&>(other);
+    other = static_cast<Array<TriangleKey>&&>(kept);
+  }
   return {};
 }
 
@@ -75,19 +110,19 @@ static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of
 }
 
 Status find_persistence(Context& context, const Complex& complex, Persistence* persistence) {
-  constexpr size_t k_per_checkpoint = 1u << 16;
+  constexpr size_t k_triangles_per_checkpoint = 1u << 16;
   const uint32_t outside = complex.tet_count();
   Array<TriangleKey> keys(context);
   Array<uint32_t> maximum_of(context);
   VoidForest voids(context);
-  TRY(sort_triangles(complex, &keys));
+  TRY(sort_triangles(context, complex, &keys));
   TRY(maximum_of.assign(complex.triangle_count(), k_none));
   TRY(persistence->creator.assign(complex.triangle_count(), 0));
   TRY(voids.parent.resize(outside + 1));
   TRY(voids.maximum.resize(outside + 1));
   for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
   for (size_t i = 0; i < keys.size(); ++i) {
-    if (i % k_per_checkpoint == 0) TRY(context.checkpoint());
+    if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
     const uint32_t t = keys[i].triangle;
     const uint32_t a = complex.triangle_side[2 * t];
     const uint32_t b = complex.triangle_side[2 * t + 1];
