@@ -10,6 +10,7 @@ namespace wireskin::flow {
 static constexpr double k_infinity = HUGE_VAL;
 
 static constexpr uint32_t k_per_checkpoint = 1u << 17;
+static constexpr uint32_t k_values_per_checkpoint = 1u << 13;  // each may take a microsecond
 
 // The corners of the face opposite to each corner, counter-clockwise seen from outside.
 static constexpr uint32_t k_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -92,7 +93,10 @@ template <typename Key>
 static Status sort_uses(Context& context, Span<const EdgeUse> from, const Key& key,
                         Span<uint32_t> first, Span<EdgeUse> to) {
   for (uint32_t& f : first) f = 0;
-  for (const EdgeUse& use : from) ++first[key(use)];
+  for (size_t i = 0; i < from.size(); ++i) {
+    if (i % k_per_checkpoint == 0) TRY(context.checkpoint());
+    ++first[key(from[i])];
+  }
   starts_from_counts(first);
   for (size_t i = 0; i < from.size(); ++i) {
     if (i % k_per_checkpoint == 0) TRY(context.checkpoint());
@@ -112,6 +116,7 @@ static Status make_edges(Context& context, Complex* complex) {
   TRY(complex->triangle_edge.resize(side_count));
   TRY(complex->edge_triangle.resize(side_count));
   for (uint32_t side = 0; side < side_count; ++side) {
+    if (side % k_per_checkpoint == 0) TRY(context.checkpoint());
     const uint32_t* v = complex->triangle.data() + side / 3 * 3;
     const uint32_t a = v[(side + 1) % 3];
     const uint32_t b = v[(side + 2) % 3];
@@ -122,6 +127,7 @@ static Status make_edges(Context& context, Complex* complex) {
   const auto high_end = [](const EdgeUse& use) { return use.high; };
   TRY(sort_uses(context, uses.span(), high_end, first, sorted.span()));
   TRY(sort_uses(context, sorted.span(), low_end, first, uses.span()));
+  TRY(context.checkpoint());
   uint32_t count = 0;
   const auto is_new = [&uses](uint32_t i) {
     return i == 0 || uses[i].low != uses[i - 1].low || uses[i].high != uses[i - 1].high;
@@ -223,17 +229,17 @@ static Status set_values(Context& context, Complex* complex) {
   TRY(complex->edge_value.resize(edges));
   TRY(complex->edge_gabriel.resize(edges));
   for (uint32_t t = 0; t < complex->tet_count(); ++t) {
-    if (t % k_per_checkpoint == 0) TRY(context.checkpoint());
+    if (t % k_values_per_checkpoint == 0) TRY(context.checkpoint());
     const uint32_t* v = complex->tet.data() + 4 * static_cast<size_t>(t);
     complex->tet_value[t] = squared_circumradius(complex->point[v[0]], complex->point[v[1]],
                                                  complex->point[v[2]], complex->point[v[3]]);
   }
   for (uint32_t t = 0; t < triangles; ++t) {
-    if (t % k_per_checkpoint == 0) TRY(context.checkpoint());
+    if (t % k_values_per_checkpoint == 0) TRY(context.checkpoint());
     value_triangle(complex, t);
   }
   for (uint32_t e = 0; e < edges; ++e) {
-    if (e % k_per_checkpoint == 0) TRY(context.checkpoint());
+    if (e % k_values_per_checkpoint == 0) TRY(context.checkpoint());
     value_edge(complex, e);
   }
   return {};

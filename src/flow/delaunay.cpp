@@ -300,7 +300,7 @@ Status triangulate(Context& context, Span<const Vec3> points, uint32_t most_tets
   TRY(check_coordinates(points));
   delaunay->tets.clear();
   Array<uint32_t> order(context);
-  TRY(delaunay_order(points, &order, &delaunay->same_as));
+  TRY(delaunay_order(context, points, &order, &delaunay->same_as));
   delaunay->places = static_cast<uint32_t>(order.size());
   delaunay->dimension = bring_simplex_to_front(order.span(), points);
   if (delaunay->dimension < 3) return {};

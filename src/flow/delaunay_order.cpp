@@ -3,14 +3,10 @@
 #include <cstring>
 
 #include "base/sort.h"
+#include "flow/radix_sort.h"
 #include "num/minmax.h"
 
 namespace wireskin::flow {
-
-struct PlaceKey {
-  uint64_t key;
-  uint32_t index;
-};
 
 static constexpr int k_place_bits = 20;
 
@@ -77,7 +73,8 @@ static uint64_t place_round(const Vec3& p, uint64_t last_round) {
   return round;
 }
 
-static void sort_places(Span<const Vec3> points, Array<PlaceKey>* keys) {
+// The round, then the place along the curve.
+static void set_place_keys(Span<const Vec3> points, Span<BitsKey> keys) {
   Vec3 low = points[0];
   Vec3 high = points[0];
   for (const Vec3& p : points) {
@@ -93,28 +90,43 @@ static void sort_places(Span<const Vec3> points, Array<PlaceKey>* keys) {
     const Vec3 cell = step * (points[i] - low);
     const uint64_t place = curve_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y),
                                        static_cast<uint32_t>(cell.z));
-    (*keys)[i] = {place_round(points[i], last_round) << (3 * k_place_bits) | place, i};
+    keys[i] = {place_round(points[i], last_round) << (3 * k_place_bits) | place, i};
   }
-  sort(keys->span(), [points](const PlaceKey& a, const PlaceKey& b) {
-    if (a.key != b.key) return a.key < b.key;
-    const Vec3& p = points[a.index];
-    const Vec3& q = points[b.index];
-    if (p.x != q.x) return p.x < q.x;
-    if (p.y != q.y) return p.y < q.y;
-    if (p.z != q.z) return p.z < q.z;
-    return a.index < b.index;
-  });
 }
 
-Status delaunay_order(Span<const Vec3> points, Array<uint32_t>* order, Array<uint32_t>* same_as) {
-  Array<PlaceKey> keys(order->context());
+static bool place_before(const Vec3& p, const Vec3& q) {
+  if (p.x != q.x) return p.x < q.x;
+  if (p.y != q.y) return p.y < q.y;
+  return p.z < q.z;
+}
+
+// Points of one cell by their coordinates.
+static void sort_cells(Span<const Vec3> points, Span<BitsKey> keys) {
+  const auto before = [points](const BitsKey& a, const BitsKey& b) {
+    const Vec3& p = points[a.index];
+    const Vec3& q = points[b.index];
+    return p == q ? a.index < b.index : place_before(p, q);
+  };
+  size_t first = 0;
+  for (size_t i = 1; i <= keys.size(); ++i) {
+    if (i < keys.size() && keys[i].bits == keys[first].bits) continue;
+    if (i - first > 1) sort(keys.part(first, i - first), before);
+    first = i;
+  }
+}
+
+Status delaunay_order(Context& context, Span<const Vec3> points, Array<uint32_t>* order,
+                      Array<uint32_t>* same_as) {
+  Array<BitsKey> keys(context);
   TRY(keys.resize(points.size()));
   TRY(order->reserve(points.size()));
   TRY(same_as->resize(points.size()));
   order->clear();
   if (points.empty()) return {};
-  sort_places(points, &keys);
-  for (const PlaceKey& key : keys) {
+  set_place_keys(points, keys.span());
+  TRY(radix_sort(context, &keys));
+  sort_cells(points, keys.span());
+  for (const BitsKey& key : keys) {
     // Points at the same place have the same key, so they stand together.
     const bool seen = !order->empty() && points[order->back()] == points[key.index];
     if (!seen) order->push_reserved(key.index);

@@ -6,7 +6,7 @@
 // once (by the least number), and for each point the number that stands for its place. The order
 // depends on the coordinates alone, not on the numbers: what is built in it is the same for any
 // numbering, even where ties are decided by the order.
-// Cost: O(n log n), 16 bytes a point of scratch.
+// Cost: linear but for points in one of 2^60 cells, 32 bytes a point of scratch.
 // Source: N. Amenta, S. Choi, G. Rote, "Incremental Constructions con BRIO", 2003; J. Skilling,
 // "Programming the Hilbert Curve", 2004.
 #pragma once
@@ -19,6 +19,7 @@ namespace wireskin::flow {
 // Mixes the bits of a place; equal places give equal numbers (0.0 and -0.0 are the same place).
 uint64_t hash_place(const Vec3& p, uint64_t seed);
 
-Status delaunay_order(Span<const Vec3> points, Array<uint32_t>* order, Array<uint32_t>* same_as);
+Status delaunay_order(Context& context, Span<const Vec3> points, Array<uint32_t>* order,
+                      Array<uint32_t>* same_as);
 
 }  // namespace wireskin::flow

@@ -3,19 +3,12 @@
 #include <cstring>
 
 #include "base/sort.h"
+#include "flow/radix_sort.h"
 #include "num/minmax.h"
 
 namespace wireskin::flow {
 
 static constexpr double k_least_ratio = 1.0 + 1e-6;
-
-static constexpr int k_digit_bits = 11;
-static constexpr uint32_t k_digit_values = 1u << k_digit_bits;
-
-struct TriangleKey {
-  uint64_t bits;
-  uint32_t triangle;
-};
 
 // Components of the complement of the balls as the radius shrinks: union-find over the tetrahedra
 // and, as the last node, the outside. Each root knows the maximum of its component.
@@ -50,37 +43,15 @@ static uint64_t descending_bits(double value) {
   return ~bits;
 }
 
-// One stable pass of radix sort, by the digit that starts at bit `shift`. False where all digits
-// are equal, and nothing was done.
-static bool sort_by_digit(Span<const TriangleKey> from, int shift, Span<TriangleKey> to) {
-  uint32_t first[k_digit_values] = {};
-  for (const TriangleKey& key : from) ++first[key.bits >> shift & (k_digit_values - 1)];
-  if (first[from[0].bits >> shift & (k_digit_values - 1)] == from.size()) return false;
-  starts_from_counts({first, k_digit_values});
-  for (const TriangleKey& key : from) to[first[key.bits >> shift & (k_digit_values - 1)]++] = key;
-  return true;
-}
-
-// By decreasing value, then number. The values of a million triangles take six passes and no
-// comparisons.
-static Status sort_triangles(Context& context, const Complex& complex, Array<TriangleKey>* keys) {
+// By decreasing value, then number.
+static Status sort_triangles(Context& context, const Complex& complex, Array<BitsKey>* keys) {
   const uint32_t count = complex.triangle_count();
-  Array<TriangleKey> other(context);
   TRY(keys->resize(count));
-  TRY(other.resize(count));
-  if (count == 0) return {};
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t t = count - 1 - i;
     (*keys)[i] = {descending_bits(complex.triangle_value[t]), t};
   }
-  for (int shift = 0; shift < 64; shift += k_digit_bits) {
-    TRY(context.checkpoint());
-    if (!sort_by_digit(keys->span(), shift, other.span())) continue;
-    Array<TriangleKey> kept = static_cast<Array<TriangleKey>&&>(*keys);
-    *keys = static_cast<Array<TriangleKey>&&>(other);
-    other = static_cast<Array<TriangleKey>&&>(kept);
-  }
-  return {};
+  return radix_sort(context, keys);
 }
 
 static Void describe_void(const Complex& complex, uint32_t creator, uint32_t maximum) {
@@ -112,7 +83,7 @@ static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of
 Status find_persistence(Context& context, const Complex& complex, Persistence* persistence) {
   constexpr size_t k_triangles_per_checkpoint = 1u << 16;
   const uint32_t outside = complex.tet_count();
-  Array<TriangleKey> keys(context);
+  Array<BitsKey> keys(context);
   Array<uint32_t> maximum_of(context);
   VoidForest voids(context);
   TRY(sort_triangles(context, complex, &keys));
@@ -123,7 +94,7 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
   for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
   for (size_t i = 0; i < keys.size(); ++i) {
     if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
-    const uint32_t t = keys[i].triangle;
+    const uint32_t t = keys[i].index;
     const uint32_t a = complex.triangle_side[2 * t];
     const uint32_t b = complex.triangle_side[2 * t + 1];
     uint32_t low = voids.root_of(a == k_none ? outside : a);
