@@ -19,7 +19,7 @@ constexpr const char* k_help = R"(wireskin - a smooth surface through a network 
 
 usage: wireskin [options] INPUT -o OUTPUT
 
-INPUT is a network of curves with surface normals:
+INPUT is a network of curves, with surface normals or, for --topology flow, without:
   .net   the number of vertices, a row x y z nx ny nz for each, the number of curves, and for
          each curve a line 0 or 1 (1: boundary) and a line of vertex indices from 0
   .obj   v, vn (one for each v, in the same order) and l, each of which is one curve with any
@@ -51,6 +51,13 @@ options:
                      standard deviation in the units of the input
   --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
                      smoothed away
+  --topology auto|normals|flow
+                     how patches are found: from the order of the normals round each node
+                     (normals), or from the curves alone, as the surface that they cage (flow);
+                     auto takes flow where curves have no normals. With flow, normals shape the
+                     surface where it is a manifold; without them it is left as remeshed
+  --voids N          with flow: the number of voids to enclose (default: those that stand out)
+  --open-walls       with flow: keep walls that end at other walls instead of at curves
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
                      written too, with the place of the fault, if no surface can be built from
                      a network that could be read
@@ -106,6 +113,21 @@ int axis_of(const std::string& name) {
   const size_t axis = name.size() == 1 ? axes.find(name) : std::string::npos;
   if (axis == std::string::npos) wrong_usage("--up needs x, y or z, not " + in_quotes(name));
   return static_cast<int>(axis);
+}
+
+TopologyChoice topology_of(const std::string& name) {
+  if (name == "auto") return TopologyChoice::automatic;
+  if (name == "normals") return TopologyChoice::normals;
+  if (name == "flow") return TopologyChoice::flow;
+  wrong_usage("--topology needs auto, normals or flow, not " + in_quotes(name));
+}
+
+int voids_of(const std::string& text) {
+  int64_t voids = 0;
+  if (!parse_integer(text, &voids) || voids < 0 || voids > 1000000) {
+    wrong_usage("--voids needs a number from 0, not " + in_quotes(text));
+  }
+  return static_cast<int>(voids);
 }
 
 // Splits "--name=value"; takes the value from the next word otherwise.
@@ -177,6 +199,12 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.method = method_of(words.value());
   } else if (words.is("--up")) {
     arguments.up_axis = axis_of(words.value());
+  } else if (words.is("--topology")) {
+    arguments.topology = topology_of(words.value());
+  } else if (words.is("--voids")) {
+    arguments.voids = voids_of(words.value());
+  } else if (words.is_flag("--open-walls")) {
+    arguments.open_walls = true;
   } else if (words.is("--report")) {
     arguments.report = words.value();
   } else if (words.is("--image")) {

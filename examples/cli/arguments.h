@@ -10,6 +10,9 @@
 
 namespace wireskin_cli {
 
+// How the patches are found.
+enum class TopologyChoice { automatic, normals, flow };
+
 struct Arguments {
   std::string input;
   std::string output;
@@ -24,6 +27,9 @@ struct Arguments {
   bool quiet = false;
   bool help = false;
   bool version = false;
+  TopologyChoice topology = TopologyChoice::automatic;
+  int voids = WSK_VOIDS_AUTO;
+  bool open_walls = false;
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

@@ -52,6 +52,57 @@ static double milliseconds_now(void*) {
   return std::chrono::duration<double, std::milli>(now).count();
 }
 
+static bool by_flow(const Network& network, const Arguments& arguments) {
+  if (arguments.topology != TopologyChoice::automatic) {
+    return arguments.topology == TopologyChoice::flow;
+  }
+  bool missing = false;
+  for (const NetworkCurve& curve : network.curves) {
+    missing = missing || (network.normals.empty() && !curve.sharp);
+  }
+  return missing;
+}
+
+struct FreeFlow {
+  void operator()(wsk_flow* flow) const { wsk_flow_free(flow); }
+};
+
+// The times of the two calls together.
+static void add_times(const wsk_report& first, wsk_report* report) {
+  for (int s = 0; s < WSK_STAGE_COUNT; ++s) report->stage_ms[s] += first.stage_ms[s];
+  report->total_ms += first.total_ms;
+  report->curves = first.curves;
+  if (first.peak_bytes > report->peak_bytes) report->peak_bytes = first.peak_bytes;
+}
+
+static void build_from_flow(const std::vector<wsk_curve>& curves, const wsk_options& options,
+                            const Arguments& arguments, BuildResult* result) {
+  wsk_flow_options flow_options;
+  wsk_flow_options_init(&flow_options, sizeof flow_options);
+  flow_options.voids = arguments.voids;
+  flow_options.open_walls = arguments.open_walls ? 1 : 0;
+  wsk_flow* made = nullptr;
+  wsk_report first;
+  wsk_report_init(&first, sizeof first);
+  if (wsk_flow_build(curves.data(), curves.size(), &options, &flow_options, &made, &first) !=
+      WSK_OK) {
+    result->report = first;
+    return;
+  }
+  const std::unique_ptr<wsk_flow, FreeFlow> flow(made);
+  wsk_surface* surface = nullptr;
+  const wsk_status status =
+      wsk_flow_surface(flow.get(), &options, &flow_options, &surface, &result->report);
+  add_times(first, &result->report);
+  if (status != WSK_OK) return;
+  result->surface.reset(surface);
+  result->flow = std::make_unique<FlowSummary>();
+  FlowSummary& summary = *result->flow;
+  wsk_flow_get_view(flow.get(), &summary.view, sizeof summary.view);
+  summary.voids.assign(summary.view.voids, summary.view.voids + summary.view.void_count);
+  summary.patches.assign(summary.view.patches, summary.view.patches + summary.view.patch_count);
+}
+
 BuildResult build_surface(const Network& network, const Arguments& arguments,
                           const BuildCallbacks& callbacks) {
   wsk_options options;
@@ -71,6 +122,10 @@ BuildResult build_surface(const Network& network, const Arguments& arguments,
   const std::vector<wsk_curve> curves = curves_of(network, samples);
   BuildResult result;
   wsk_report_init(&result.report, sizeof result.report);
+  if (by_flow(network, arguments)) {
+    build_from_flow(curves, options, arguments, &result);
+    return result;
+  }
   wsk_surface* surface = nullptr;
   if (wsk_build(curves.data(), curves.size(), &options, &surface, &result.report) == WSK_OK) {
     result.surface.reset(surface);

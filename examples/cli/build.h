@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "arguments.h"
 #include "network.h"
@@ -14,9 +15,17 @@ struct FreeSurface {
   void operator()(wsk_surface* surface) const { wsk_surface_free(surface); }
 };
 
+// What is known of a surface that was made of curves alone. The view's arrays are gone.
+struct FlowSummary {
+  wsk_flow_view view = {};
+  std::vector<wsk_void> voids;
+  std::vector<wsk_flow_patch> patches;
+};
+
 struct BuildResult {
   std::unique_ptr<wsk_surface, FreeSurface> surface;  // null if the status is not WSK_OK
   wsk_report report;
+  std::unique_ptr<FlowSummary> flow;  // null if normals gave the patches
 };
 
 // `cancel` and `progress` may be null, as in wsk_options.

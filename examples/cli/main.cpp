@@ -32,17 +32,27 @@ static void write_failure_report(const Arguments& arguments, const wsk_report& r
 }
 
 static void write_outputs(const Arguments& arguments, const Network& network,
-                          const wsk_surface_view& surface, const wsk_report& report) {
+                          const wsk_surface_view& surface, const wsk_report& report,
+                          const FlowSummary* flow) {
   OutputFiles files;
   files.add(arguments.output, mesh_bytes(surface, arguments.output));
   if (!arguments.image.empty()) {
     files.add(arguments.image, png_bytes(draw_picture(surface, network, arguments.up_axis)));
   }
   if (!arguments.report.empty()) {
-    files.add(arguments.report, report_json(arguments, report));
+    files.add(arguments.report, report_json(arguments, report, flow));
   }
   if (cancel_wanted()) throw Failure(arguments.input + ": cancelled");
   files.commit();
+}
+
+static void print_flow(const wsk_flow_view& view) {
+  const auto number = [](uint32_t n) { return static_cast<unsigned long>(n); };
+  std::printf(
+      "from curves alone: Betti numbers %lu %lu %lu, %lu open patches, %lu bare segments%s\n",
+      number(view.betti[0]), number(view.betti[1]), number(view.betti[2]),
+      number(view.open_patch_count), number(view.bare_count),
+      view.manifold != 0 ? "" : ", not a manifold");
 }
 
 static void run(const Arguments& arguments) {
@@ -59,13 +69,14 @@ static void run(const Arguments& arguments) {
   }
   wsk_surface_view surface;
   wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
-  write_outputs(arguments, network, surface, result.report);
+  write_outputs(arguments, network, surface, result.report, result.flow.get());
   if (arguments.quiet) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::printf("%s: %lu vertices, %lu triangles, %lu patches, %.2f s\n", arguments.output.c_str(),
               static_cast<unsigned long>(surface.vertex_count),
               static_cast<unsigned long>(surface.triangle_count),
               static_cast<unsigned long>(surface.patch_count), seconds.count());
+  if (result.flow != nullptr) print_flow(result.flow->view);
 }
 
 static int run_words(const std::vector<std::string>& words) {

@@ -95,9 +95,51 @@ std::string stages_json(const wsk_report& report) {
   return stages.close();
 }
 
+// The voids that stand out a little at least; there may be thousands of others.
+std::string voids_json(const FlowSummary& flow) {
+  constexpr double k_least_ratio = 1.001;
+  std::string list;
+  for (const wsk_void& v : flow.voids) {
+    if (v.ratio < k_least_ratio && v.chosen == 0) continue;
+    JsonObject object("      ");
+    object.number("ratio", v.ratio);
+    object.number("creation", v.creation);
+    object.number("filling", v.filling);
+    object.member("chosen", v.chosen != 0 ? "true" : "false");
+    list += (list.empty() ? "" : ", ") + object.close();
+  }
+  return "[" + list + "]";
+}
+
+std::string flow_json(const FlowSummary& flow) {
+  const wsk_flow_view& view = flow.view;
+  JsonObject object("  ");
+  object.member("betti", "[" + std::to_string(view.betti[0]) + ", " +
+                             std::to_string(view.betti[1]) + ", " + std::to_string(view.betti[2]) +
+                             "]");
+  object.count("samples", view.sample_count);
+  object.count("tetrahedra", view.tetrahedron_count);
+  object.count("patches", view.patch_count);
+  object.count("open_patches", view.open_patch_count);
+  object.count("bare_segments", view.bare_count);
+  object.count("branching_edges", view.branch_count);
+  object.count("crossings", view.crossing_count);
+  object.member("manifold", view.manifold != 0 ? "true" : "false");
+  object.member("smoothed", view.smoothed != 0 ? "true" : "false");
+  object.member("voids", voids_json(flow));
+  std::string open;
+  for (size_t p = 0; p < flow.patches.size(); ++p) {
+    if (flow.patches[p].open == 0) continue;
+    open += (open.empty() ? "" : ", ") + std::to_string(p);
+  }
+  object.member("open_patch_numbers", "[" + open + "]");
+  return object.close();
+}
+
 }  // namespace
 
-std::string report_json(const Arguments& arguments, const wsk_report& report) {
+std::string report_json(const Arguments& arguments, const wsk_report& report,
+                        const FlowSummary* flow) {
   JsonObject json("");
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
@@ -139,6 +181,7 @@ std::string report_json(const Arguments& arguments, const wsk_report& report) {
   json.count("peak_bytes", static_cast<long long>(report.peak_bytes));
   json.member("stage_ms", stages_json(report));
   json.number("total_ms", report.total_ms);
+  if (flow != nullptr) json.member("flow", flow_json(*flow));
   return json.close() + "\n";
 }
 

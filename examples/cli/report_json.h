@@ -6,11 +6,14 @@
 #include <string_view>
 
 #include "arguments.h"
+#include "build.h"
 #include "wireskin.h"
 
 namespace wireskin_cli {
 
-std::string report_json(const Arguments& arguments, const wsk_report& report);
+// `flow` may be null: the patches came from normals.
+std::string report_json(const Arguments& arguments, const wsk_report& report,
+                        const FlowSummary* flow = nullptr);
 
 // The text in quotes, escaped.
 std::string json_string(std::string_view text);

@@ -5,7 +5,8 @@
 namespace wireskin::flow {
 
 static constexpr uint32_t k_most_tries = 200;
-static constexpr double k_loose_share = 0.02;  // of a wall's border that may lie off the curves
+// Of a wall's border that may lie off the curves.
+static constexpr double k_loose_share = 0.1;
 
 static uint32_t side_of(const Complex& complex, uint32_t triangle, uint32_t side) {
   const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
@@ -78,34 +79,66 @@ static void cut_at_gap(const Persistence& persistence, Array<uint32_t>* chosen) 
   chosen->shrink(kept);
 }
 
+namespace {
+
+// Everything that trying a void needs.
+struct VoidTrial {
+  Sheet all, peeled;
+  Array<uint32_t> mark, wall;
+
+  explicit VoidTrial(Context& context)
+      : all(context), peeled(context), mark(context), wall(context) {}
+};
+
+}  // namespace
+
+enum class Verdict : uint8_t { accepted, unbounded, gone };
+
+// Whether the creator's wall holds, together with those chosen before.
+static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_t creator,
+                       uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
+  TRY(copy_sheet(trial->all, &trial->peeled));
+  add_to_sheet(complex, creator, &trial->peeled);
+  peel(complex, curves, Protect::curves, &trial->peeled);
+  *verdict = Verdict::gone;
+  if (trial->peeled.in[creator] == 0) return {};
+  TRY(flood_patch(complex, curves, trial->peeled, creator, stamp, trial->mark.span(),
+                  &trial->wall));
+  const bool bounded = bounded_by_curves(complex, curves, trial->peeled, trial->wall.span());
+  *verdict = bounded ? Verdict::accepted : Verdict::unbounded;
+  return {};
+}
+
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
                     const Persistence& persistence, const TopologyOptions& options,
                     Array<uint32_t>* chosen) {
   const bool automatic = options.voids < 0;
-  const uint32_t candidates = static_cast<uint32_t>(persistence.voids.size());
-  Sheet all(context), trial(context);
-  Array<uint32_t> mark(context), wall(context);
-  TRY(start_sheet(complex, &all));
-  TRY(mark.assign(complex.triangle_count(), k_none));
+  const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
+  VoidTrial trial(context);
+  Array<uint32_t> unbounded(context);
+  TRY(start_sheet(complex, &trial.all));
+  TRY(trial.mark.assign(complex.triangle_count(), k_none));
   chosen->clear();
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &all);
+    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial.all);
   }
-  for (uint32_t i = 0; i < candidates && i < k_most_tries; ++i) {
+  for (uint32_t i = 0; i < persistence.voids.size() && i < k_most_tries; ++i) {
     if (automatic && persistence.voids[i].ratio < options.least_ratio) break;
-    if (!automatic && chosen->size() == static_cast<size_t>(options.voids)) break;
+    if (chosen->size() == wished) break;
     TRY(context.checkpoint());
     const uint32_t creator = persistence.voids[i].creator;
-    TRY(copy_sheet(all, &trial));
-    add_to_sheet(complex, creator, &trial);
-    peel(complex, curves, Protect::curves, &trial);
-    if (trial.in[creator] == 0) continue;
-    TRY(flood_patch(complex, curves, trial, creator, i, mark.span(), &wall));
-    if (!bounded_by_curves(complex, curves, trial, wall.span())) continue;
-    add_to_sheet(complex, creator, &all);
+    Verdict verdict;
+    TRY(try_void(complex, curves, creator, i, &trial, &verdict));
+    if (verdict == Verdict::unbounded) TRY(unbounded.push(i));
+    if (verdict != Verdict::accepted) continue;
+    add_to_sheet(complex, creator, &trial.all);
     TRY(chosen->push(i));
   }
   if (automatic) cut_at_gap(persistence, chosen);
+  // Who asks for a number gets it as far as anything is caged at all.
+  for (size_t k = 0; !automatic && k < unbounded.size() && chosen->size() < wished; ++k) {
+    TRY(chosen->push(unbounded[k]));
+  }
   return {};
 }
 
