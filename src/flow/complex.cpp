@@ -60,6 +60,7 @@ static Status make_triangles(Context& context, const Delaunay& delaunay, Complex
   const uint32_t tet_count = static_cast<uint32_t>(delaunay.tets.size());
   size_t count = 0;
   for (uint32_t t = 0; t < tet_count; ++t) {
+    if (t % k_per_checkpoint == 0) TRY(context.checkpoint());
     for (const uint32_t across : delaunay.tets[t].across) count += across > 4 * t ? 1 : 0;
   }
   TRY(complex->triangle.resize(3 * count));
@@ -132,7 +133,10 @@ static Status make_edges(Context& context, Complex* complex) {
   const auto is_new = [&uses](uint32_t i) {
     return i == 0 || uses[i].low != uses[i - 1].low || uses[i].high != uses[i - 1].high;
   };
-  for (uint32_t i = 0; i < side_count; ++i) count += is_new(i) ? 1 : 0;
+  for (uint32_t i = 0; i < side_count; ++i) {
+    if (i % k_per_checkpoint == 0) TRY(context.checkpoint());
+    count += is_new(i) ? 1 : 0;
+  }
   TRY(complex->edge.resize(2 * static_cast<size_t>(count)));
   TRY(complex->edge_triangle_first.resize(count + 1));
   for (uint32_t& f : complex->edge_first) f = 0;

@@ -43,7 +43,7 @@ TEST_CASE("many points come in rounds: early ones are few and spread out") {
   const std::vector<uint32_t> order = order_of(p).order;
   CHECK(std::set<uint32_t>(order.begin(), order.end()).size() == p.size());
   std::set<int> octants;
-  for (size_t i = 0; i < 200; ++i) {
+  for (size_t i = 0; i < 450; ++i) {
     const Vec3& q = p[order[i]];
     octants.insert((q.x > 0 ? 1 : 0) + (q.y > 0 ? 2 : 0) + (q.z > 0 ? 4 : 0));
   }

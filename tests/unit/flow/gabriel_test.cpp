@@ -6,9 +6,9 @@
 #include "support/dyadic.h"
 
 using namespace wireskin;
-using scenes::Dyadic;
 using flow::inside_edge_ball;
 using flow::inside_triangle_ball;
+using scenes::Dyadic;
 using unit::Random;
 
 namespace {
