@@ -4,14 +4,6 @@
 #include <cstdlib>
 
 #include "api/boundary.h"
-#include "surface.h"
-
-// One block of the caller's memory holds the handle and, behind it, all arrays of the view.
-struct wsk_surface {
-  wireskin::Allocator allocator;
-  size_t bytes;
-  wsk_surface_view view;
-};
 
 namespace wireskin::api {
 
@@ -79,7 +71,7 @@ static void report_status(const Status& status, wsk_report* report) {
   report->triangle = status.place.triangle;
 }
 
-static void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report) {
+void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report) {
   report->curves = counts.curves;
   report->nodes = counts.nodes;
   report->segments = counts.segments;
@@ -333,8 +325,7 @@ static const uint32_t* write_indices(unsigned char* block, size_t offset,
   return reinterpret_cast<const uint32_t*>(block + offset);
 }
 
-static Status make_handle(Context& context, const Surface& surface, int exponent,
-                          wsk_surface** out) {
+Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out) {
   const size_t n = surface.position.size(), triangles = surface.patch.size();
   Layout layout(sizeof(wsk_surface));
   const size_t positions = layout.add_array<double>(3 * n);
@@ -408,7 +399,7 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   }
   const CurveSet set = {storage.start.span(),  storage.position.span(), storage.normal.span(),
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
-                        storage.soft.span(),   storage.sharp.span(),   storage.right.span()};
+                        storage.soft.span(),   storage.sharp.span(),    storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
                              smoothing_of(options, scale)};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default

@@ -605,6 +605,147 @@ void wsk_network_name_places(const wsk_network* network, wsk_report* report);
 /* As wsk_surface_free. */
 void wsk_network_free(wsk_network* network);
 
+/* ---- Surfaces from curves alone ----------------------------------------------------------------
+ *
+ * No normals, no cycles, no order: the curves, and points, are sampled, and a cage of them becomes
+ * the surface that a person would see in it (B. Sadri, K. Singh, "Flow-Complex-Based Shape
+ * Reconstruction from 3D Curves", 2014). The result may be open, have handles, enclose several
+ * voids and have curves at which more than two patches meet. wsk_flow_build does what is costly and
+ * keeps it; wsk_flow_surface makes a surface of it, as often as asked, for any number of voids.
+ *
+ *     wsk_flow* flow = NULL;
+ *     if (wsk_flow_build(curves, curve_count, &options, NULL, &flow, &report) == WSK_OK) {
+ *         wsk_flow_surface(flow, &options, NULL, &surface, &report);
+ *         wsk_flow_get_view(flow, &view, sizeof view);
+ *         ... view.betti, view.patches ...
+ *         wsk_flow_free(flow);
+ *     }
+ */
+
+typedef struct wsk_flow wsk_flow;
+
+#define WSK_VOIDS_AUTO (-1)
+
+typedef struct wsk_flow_options {
+  size_t size; /* set by wsk_flow_options_init */
+
+  /* For wsk_flow_build. */
+
+  /* The greatest distance between samples on the curves, in your units; 0 (the default): a fiftieth
+     of the diagonal of the bounding box, or wsk_options.spacing if that is less. It must be finer
+     than the gaps that the surface shall see; where curves run near each other it gets finer by
+     itself. */
+  double sampling;
+  /* Samples are moved by this part of the diagonal before anything is decided, because exact ties
+     would be decided at random; the result has them where they were. 0 is the default, 1e-7. */
+  double jitter;
+  uint32_t seed; /* another draw of the jitter */
+  /* More tetrahedra than this are WSK_ERROR_TOO_LARGE; 0: two million. */
+  uint32_t most_tetrahedra;
+
+  /* For wsk_flow_surface. */
+
+  /* How many voids the surface shall enclose; WSK_VOIDS_AUTO (the default): those whose ratio
+     stands out. Fewer are made if the curves cage fewer. */
+  int32_t voids;
+  /* Rooms along the walls up to this multiple of the radius of the first void's last wall are
+     filled and emptied again, so that walls move into the corners that they cut. Default 1.2, 0:
+     not at all. */
+  double thickness;
+  /* Non-zero: walls stay that have a border off the curves, against other walls. */
+  int32_t open_walls;
+  /* Non-zero: patches keep the triangles between the samples instead of being remeshed to
+     wsk_options.spacing (0: that of the sampling). */
+  int32_t raw;
+} wsk_flow_options;
+
+/* As wsk_options_init. */
+void wsk_flow_options_init(wsk_flow_options* options, size_t size);
+
+/* A void that the curves cage, as a person would see it the better, the greater its ratio is. Balls
+   that grow round the samples close it at one radius and fill it at another. */
+typedef struct wsk_void {
+  double creation, filling; /* radii, in your units */
+  double ratio;             /* of the two, capped at what is possible */
+  int32_t chosen;           /* non-zero: enclosed by the last surface made */
+} wsk_void;
+
+/* A patch of the last surface. Its number is that of its triangles in wsk_surface_view. */
+typedef struct wsk_flow_patch {
+  uint32_t first_loop, loop_count; /* two: an annulus */
+  int32_t euler_characteristic;
+  int32_t open; /* non-zero: part of its border is no curve */
+  /* The voids on the sides from which its triangles run counter-clockwise and clockwise: 0 is the
+     outside, n the n-th of the chosen voids. */
+  uint32_t front, back;
+  double area;   /* before smoothing and remeshing */
+  double radius; /* at which balls round the samples have covered it */
+} wsk_flow_patch;
+
+/* A stretch of a loop: along an arc from one of its vertices to another, backward if from > to;
+   vertex i of arc a is arc_vertices[arc_first[a] + i]. Off the curves arc is WSK_NONE, and from and
+   to are vertices. The patch lies on the left, seen from its front. */
+typedef struct wsk_flow_run {
+  uint32_t arc, from, to;
+} wsk_flow_run;
+
+/* What wsk_flow_build found, and how the last surface hangs together. Arrays belong to the flow and
+   live until it makes another surface or is freed. */
+typedef struct wsk_flow_view {
+  size_t size; /* set by wsk_flow_get_view */
+
+  uint32_t sample_count;
+  uint32_t tetrahedron_count;
+  uint32_t critical_count[4]; /* points, saddles of index 1 and 2, maxima: their alternating sum is 1 */
+  uint32_t split_count;       /* segments halved because a sample came too near */
+  uint32_t crowded_count;     /* segments that should have been, but were too short already */
+  uint32_t missing_count;     /* segments without an edge in the complex: none in sound input */
+  uint32_t void_count;
+  const wsk_void* voids; /* by falling ratio */
+
+  /* Of the last surface; zero before the first. */
+  uint32_t betti[3]; /* components, handles and loops, voids: of surface and curves together */
+  uint32_t patch_count;
+  uint32_t open_patch_count;
+  uint32_t bare_count;     /* segments of curve at which no patch lies */
+  uint32_t branch_count;   /* edges of more than two triangles before remeshing */
+  uint32_t held_count;     /* patches that remeshing spared because they would have crossed others */
+  uint32_t crossing_count; /* pairs of triangles that cross: none unless smoothing made them */
+  int32_t manifold;        /* non-zero: every edge has at most two triangles, every vertex one fan */
+  int32_t smoothed;        /* non-zero: the normals of the curves shaped it */
+  const wsk_flow_patch* patches;
+  uint32_t loop_count;
+  const uint32_t* loop_first; /* loop l has the runs loop_first[l] .. loop_first[l + 1] */
+  const wsk_flow_run* runs;
+  uint32_t arc_count; /* stretches of curve between junctions and corners */
+  const uint32_t* arc_first; /* arc_count + 1 */
+  const uint32_t* arc_vertices; /* vertices of the surface; a closed arc repeats its first */
+  const uint32_t* bare_vertices; /* two for each bare segment */
+} wsk_flow_view;
+
+/* Samples the curves and finds the voids. Curves join where samples carry the same node number or
+ * coincide; curves of one sample are points. Normals are not needed: null, or given for all curves,
+ * and then they shape the surface. A curve's boundary, soft and sharp are not read, but sharp curves
+ * count as having no normals. `options` and `flow_options` may be null (defaults). On success *flow is
+ * to be given to wsk_flow_free; it keeps the allocator of the options, not the callbacks. */
+wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk_options* options,
+                          const wsk_flow_options* flow_options, wsk_flow** flow,
+                          wsk_report* report);
+
+/* A surface like that of wsk_build. With normals it is smoothed by wsk_options.method where it is a
+ * manifold and all its borders are curves; else, and without normals, it is made of the remeshed
+ * patches, in which curvatures are zero if it is no manifold. No two triangles cross. The surface
+ * lives on without the flow. One flow makes one surface at a time. */
+wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
+                            const wsk_flow_options* flow_options, wsk_surface** surface,
+                            wsk_report* report);
+
+/* As wsk_surface_get_view. */
+void wsk_flow_get_view(const wsk_flow* flow, wsk_flow_view* view, size_t size);
+
+/* As wsk_surface_free. */
+void wsk_flow_free(wsk_flow* flow);
+
 /* The version of the library linked in, "major.minor.patch"; compare with WIRESKIN_VERSION_STRING.
  */
 WSK_API const char* wsk_version_string(void);

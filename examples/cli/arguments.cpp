@@ -71,6 +71,13 @@ options:
                      takes the median distance of neighbouring samples, at most a hundredth of
                      the diagonal. What is connected stays as it is; the report lists every joint
   --orient           the signs of the normals are not to be trusted: make them agree
+  --topology auto|normals|flow
+                     how patches are found: from the order of the normals round each node
+                     (normals), or from the curves alone, as the surface that they cage (flow);
+                     auto takes flow where curves have no normals. With flow, normals shape the
+                     surface where it is a manifold; without them it is left as remeshed
+  --voids N          with flow: the number of voids to enclose (default: those that stand out)
+  --open-walls       with flow: keep walls that end at other walls instead of at curves
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
                      written too, with the place of the fault, if the input cannot be read or no
                      surface can be built from it
@@ -135,6 +142,21 @@ int axis_of(const std::string& name) {
   const size_t axis = name.size() == 1 ? axes.find(name) : std::string::npos;
   if (axis == std::string::npos) wrong_usage("--up needs x, y or z, not " + in_quotes(name));
   return static_cast<int>(axis);
+}
+
+TopologyChoice topology_of(const std::string& name) {
+  if (name == "auto") return TopologyChoice::automatic;
+  if (name == "normals") return TopologyChoice::normals;
+  if (name == "flow") return TopologyChoice::flow;
+  wrong_usage("--topology needs auto, normals or flow, not " + in_quotes(name));
+}
+
+int voids_of(const std::string& text) {
+  int64_t voids = 0;
+  if (!parse_integer(text, &voids) || voids < 0 || voids > 1000000) {
+    wrong_usage("--voids needs a number from 0, not " + in_quotes(text));
+  }
+  return static_cast<int>(voids);
 }
 
 // Splits "--name=value"; takes the value from the next word otherwise.
@@ -212,6 +234,12 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.method = method_of(words.value());
   } else if (words.is("--up")) {
     arguments.up_axis = axis_of(words.value());
+  } else if (words.is("--topology")) {
+    arguments.topology = topology_of(words.value());
+  } else if (words.is("--voids")) {
+    arguments.voids = voids_of(words.value());
+  } else if (words.is_flag("--open-walls")) {
+    arguments.open_walls = true;
   } else if (words.is("--report")) {
     arguments.report = words.value();
   } else if (words.is("--image")) {

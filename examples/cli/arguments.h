@@ -10,6 +10,9 @@
 
 namespace wireskin_cli {
 
+// How the patches are found.
+enum class TopologyChoice { automatic, normals, flow };
+
 struct Arguments {
   std::string input;
   std::vector<std::string> outputs;  // at least one
@@ -28,6 +31,9 @@ struct Arguments {
   bool curves = false;  // write the curves beside the mesh
   double snap = 0.0;    // the tolerance; 0: automatic, negative: off
   bool orient = false;
+  TopologyChoice topology = TopologyChoice::automatic;
+  int voids = WSK_VOIDS_AUTO;
+  bool open_walls = false;
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

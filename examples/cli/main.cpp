@@ -22,14 +22,6 @@
 
 namespace wireskin_cli {
 
-static std::string report_of(const Arguments& arguments, const BuildResult& result,
-                             size_t line = 0) {
-  if (result.prepared == nullptr) return report_json(arguments, result.report, line);
-  wsk_network_view prepared;
-  wsk_network_get_view(result.prepared.get(), &prepared, sizeof prepared);
-  return report_json(arguments, result.report, line, &prepared);
-}
-
 // The report of what failed. What went wrong there is said before what goes wrong here.
 static void write_failure_report(const Arguments& arguments, const std::string& json,
                                  const std::string& line) {
@@ -45,17 +37,15 @@ static void write_failure_report(const Arguments& arguments, const std::string& 
 
 static Network read_input(const Arguments& arguments) {
   try {
-    Network network = read_network(arguments.input);
-    require_surfaceable(arguments.input, network);
-    return network;
+    return read_network(arguments.input);
   } catch (const ReadFailure& failure) {
     write_failure_report(arguments, read_failure_json(arguments, failure), failure.what());
     throw;
   }
 }
 
-static void write_outputs(const Arguments& arguments, const Network& network,
-                          const wsk_surface_view& surface, const BuildResult& result) {
+static void write_outputs(const Arguments& arguments, const wsk_surface_view& surface,
+                          const BuildResult& result) {
   OutputFiles files;
   for (const std::string& output : arguments.outputs) {
     files.add(output, mesh_bytes(surface, output, arguments.curves));
@@ -63,14 +53,23 @@ static void write_outputs(const Arguments& arguments, const Network& network,
   if (!arguments.image.empty()) {
     files.add(arguments.image, png_bytes(draw_picture(surface, arguments.up_axis)));
   }
-  const std::string json = report_of(arguments, result);
+  const std::string json = report_json(arguments, result);
   if (!arguments.report.empty()) files.add(arguments.report, json);
   if (!arguments.html.empty()) {
     const std::string title = std::filesystem::path(arguments.input).filename().string();
-    files.add(arguments.html, page_bytes({surface, network, title, json, arguments.up_axis}));
+    files.add(arguments.html, page_bytes({surface, result, title, json, arguments.up_axis}));
   }
   if (cancel_wanted()) throw Failure(arguments.input + ": cancelled");
   files.commit();
+}
+
+static void print_flow(const wsk_flow_view& view) {
+  const auto number = [](uint32_t n) { return static_cast<unsigned long>(n); };
+  std::printf(
+      "from curves alone: Betti numbers %lu %lu %lu, %lu open patches, %lu bare segments%s\n",
+      number(view.betti[0]), number(view.betti[1]), number(view.betti[2]),
+      number(view.open_patch_count), number(view.bare_count),
+      view.manifold != 0 ? "" : ", not a manifold");
 }
 
 static void run(const Arguments& arguments) {
@@ -84,12 +83,12 @@ static void run(const Arguments& arguments) {
     const std::string line = failure_line(arguments.input, network, result.report) +
                              failure_hint(arguments, network, result.report);
     const size_t place = line_of(network, result.report);
-    write_failure_report(arguments, report_of(arguments, result, place), line);
+    write_failure_report(arguments, report_json(arguments, result, place), line);
     throw Failure(line);
   }
   wsk_surface_view surface;
   wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
-  write_outputs(arguments, network, surface, result);
+  write_outputs(arguments, surface, result);
   if (arguments.quiet) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::printf("%s: %lu vertices, %lu triangles, %lu patches, %.2f s\n",
@@ -97,6 +96,7 @@ static void run(const Arguments& arguments) {
               static_cast<unsigned long>(surface.vertex_count),
               static_cast<unsigned long>(surface.triangle_count),
               static_cast<unsigned long>(surface.patch_count), seconds.count());
+  if (result.flow != nullptr) print_flow(result.flow->view);
 }
 
 static int run_words(const std::vector<std::string>& words) {

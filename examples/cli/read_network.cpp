@@ -46,20 +46,4 @@ Network read_network(const std::string& path) {
   return read_network_bytes(path, format, std::move(bytes));
 }
 
-void require_surfaceable(const std::string& file, const Network& network) {
-  if (!network.raw_curves.empty()) {
-    throw ReadFailure(k_not_supported, file, 0,
-                      "measured tangents without positions (.rawnet) are not surfaced yet: "
-                      "integrate them to a .net first");
-  }
-  if (network.points.empty()) return;
-  const size_t line = network.vertex_lines[network.points[0]];
-  if (network.curves.empty()) {
-    throw ReadFailure(k_not_supported, file, 0,
-                      "points without curves, which are not surfaced yet: curves must be given");
-  }
-  throw ReadFailure(k_not_supported, file, line,
-                    "a point outside the curves, such points are not surfaced yet");
-}
-
 }  // namespace wireskin_cli

@@ -36,11 +36,6 @@ namespace wireskin_cli {
 Network read_network(const std::string& path);
 Network read_network_bytes(const std::string& file, Format format, std::string bytes);
 
-// A ReadFailure for what can be read but not surfaced.
-void require_surfaceable(const std::string& file, const Network& network);
-
-Network read_net(const std::string& file, std::string_view text);
-Network read_rawnet(const std::string& file, std::string_view text);
 Network read_obj(const std::string& file, std::string_view text);
 Network read_ply(const std::string& file, std::string_view bytes);
 Network read_table(const std::string& file, std::string_view text);

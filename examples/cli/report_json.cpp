@@ -157,6 +157,47 @@ std::string preparation_json(const wsk_network_view& prepared) {
   return json.close();
 }
 
+// The voids that stand out a little at least; there may be thousands of others.
+std::string voids_json(const FlowSummary& flow) {
+  constexpr double k_least_ratio = 1.001;
+  std::string list;
+  for (const wsk_void& v : flow.voids) {
+    if (v.ratio < k_least_ratio && v.chosen == 0) continue;
+    JsonObject object("      ");
+    object.number("ratio", v.ratio);
+    object.number("creation", v.creation);
+    object.number("filling", v.filling);
+    object.member("chosen", v.chosen != 0 ? "true" : "false");
+    list += (list.empty() ? "" : ", ") + object.close();
+  }
+  return "[" + list + "]";
+}
+
+std::string flow_json(const FlowSummary& flow) {
+  const wsk_flow_view& view = flow.view;
+  JsonObject object("  ");
+  object.member("betti", "[" + std::to_string(view.betti[0]) + ", " +
+                             std::to_string(view.betti[1]) + ", " + std::to_string(view.betti[2]) +
+                             "]");
+  object.count("samples", view.sample_count);
+  object.count("tetrahedra", view.tetrahedron_count);
+  object.count("patches", view.patch_count);
+  object.count("open_patches", view.open_patch_count);
+  object.count("bare_segments", view.bare_count);
+  object.count("branching_edges", view.branch_count);
+  object.count("crossings", view.crossing_count);
+  object.member("manifold", view.manifold != 0 ? "true" : "false");
+  object.member("smoothed", view.smoothed != 0 ? "true" : "false");
+  object.member("voids", voids_json(flow));
+  std::string open;
+  for (size_t p = 0; p < flow.patches.size(); ++p) {
+    if (flow.patches[p].open == 0) continue;
+    open += (open.empty() ? "" : ", ") + std::to_string(p);
+  }
+  object.member("open_patch_numbers", "[" + open + "]");
+  return object.close();
+}
+
 // What the command itself knows stands beside the report.
 struct Outcome {
   const char* status;
@@ -165,8 +206,9 @@ struct Outcome {
   size_t line;
 };
 
-std::string outcome_json(const Arguments& arguments, const wsk_report& report,
-                         const Outcome& outcome, const wsk_network_view* prepared) {
+std::string outcome_json(const Arguments& arguments, const BuildResult& result,
+                         const Outcome& outcome) {
+  const wsk_report& report = result.report;
   JsonObject json("");
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
@@ -204,26 +246,28 @@ std::string outcome_json(const Arguments& arguments, const wsk_report& report,
   json.count("peak_bytes", static_cast<long long>(report.peak_bytes));
   json.member("stage_ms", stages_json(report));
   json.number("total_ms", report.total_ms);
-  if (prepared != nullptr) json.member("preparation", preparation_json(*prepared));
+  if (result.prepared != nullptr) {
+    json.member("preparation", preparation_json(result.prepared_view()));
+  }
+  if (result.flow != nullptr) json.member("flow", flow_json(*result.flow));
   return json.close() + "\n";
 }
 
 }  // namespace
 
-std::string report_json(const Arguments& arguments, const wsk_report& report, size_t line,
-                        const wsk_network_view* prepared) {
+std::string report_json(const Arguments& arguments, const BuildResult& result, size_t line) {
+  const wsk_report& report = result.report;
   const bool silent = report.status == WSK_OK || report.sentence == nullptr;
-  return outcome_json(arguments, report,
+  return outcome_json(arguments, result,
                       {wsk_status_name(report.status), wsk_stage_name(report.stage),
-                       silent ? "" : report.sentence, line},
-                      prepared);
+                       silent ? "" : report.sentence, line});
 }
 
 std::string read_failure_json(const Arguments& arguments, const ReadFailure& failure) {
-  wsk_report report;
-  wsk_report_init(&report, sizeof report);
-  return outcome_json(arguments, report,
-                      {failure.status(), "reading", failure.sentence(), failure.line()}, nullptr);
+  BuildResult nothing;
+  wsk_report_init(&nothing.report, sizeof nothing.report);
+  return outcome_json(arguments, nothing,
+                      {failure.status(), "reading", failure.sentence(), failure.line()});
 }
 
 }  // namespace wireskin_cli

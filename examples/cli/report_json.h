@@ -6,15 +6,13 @@
 #include <string_view>
 
 #include "arguments.h"
+#include "build.h"
 #include "failure.h"
-#include "wireskin.h"
 
 namespace wireskin_cli {
 
-// `line` of the input that the place of the report speaks of; 0 if there is none. `prepared` is the
-// network as it was surfaced; null if it was not prepared.
-std::string report_json(const Arguments& arguments, const wsk_report& report, size_t line = 0,
-                        const wsk_network_view* prepared = nullptr);
+// `line` of the input that the place of the report speaks of; 0 if there is none.
+std::string report_json(const Arguments& arguments, const BuildResult& result, size_t line = 0);
 
 // The same members for an input that could not be read: all counts are zero, the status is one of
 // those of ReadFailure.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -91,33 +92,101 @@ void add_surface(const wsk_surface_view& surface, const Point& origin, Arrays& a
   arrays.add_index("edges", edges);
 }
 
-// The curves as they were given; vertices that several curves name are nodes.
-void add_samples(const Network& network, const Point& origin, Arrays& arrays) {
+// The curves as they were given; samples that several curves name are nodes. Where only tangents
+// were measured, as they were integrated.
+void add_samples(const BuildResult& result, const Point& origin, Arrays& arrays) {
+  std::vector<wsk_curve> curves = result.given.curves;
+  if (curves.empty()) {
+    const wsk_network_view prepared = result.prepared_view();
+    curves.assign(prepared.curves, prepared.curves + prepared.curve_count);
+  }
   std::vector<double> positions, normals, nodes;
   std::vector<uint32_t> start = {0}, closed;
   std::map<uint32_t, size_t> uses;
-  for (const NetworkCurve& curve : network.curves) {
-    for (const uint32_t v : curve.vertices) {
-      ++uses[v];
-      const size_t at = 3 * static_cast<size_t>(v);
-      positions.insert(positions.end(), &network.positions[at], &network.positions[at] + 3);
-      if (network.normals.empty()) continue;
-      const double* n = &network.normals[at];
+  for (const wsk_curve& curve : curves) {
+    for (size_t i = 0; i < curve.sample_count; ++i) {
+      const double* p = curve.positions + 3 * i;
+      positions.insert(positions.end(), p, p + 3);
+      const double zero[3] = {0.0, 0.0, 0.0};
+      const double* n = curve.normals == nullptr ? zero : curve.normals + 3 * i;
       const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
       for (size_t k = 0; k < 3; ++k) normals.push_back(length > 0.0 ? n[k] / length : 0.0);
+      const uint32_t node = curve.nodes == nullptr ? WSK_NONE : curve.nodes[i];
+      if (node != WSK_NONE && ++uses[node] == 2) nodes.insert(nodes.end(), p, p + 3);
     }
     start.push_back(static_cast<uint32_t>(positions.size() / 3));
-    closed.push_back(curve.closed ? 1 : 0);
-  }
-  for (const auto& [v, count] : uses) {
-    const size_t at = 3 * static_cast<size_t>(v);
-    if (count > 1) nodes.insert(nodes.end(), &network.positions[at], &network.positions[at] + 3);
+    closed.push_back(curve.closed != 0 ? 1 : 0);
   }
   arrays.add_float("samples", relative(positions.data(), positions.size(), origin));
   arrays.add_unit("sampleNormals", normals);
   arrays.add_index("curveStart", start);
   arrays.add_index("curveClosed", closed);
   arrays.add_float("nodes", relative(nodes.data(), nodes.size(), origin));
+}
+
+// What the report complains of, at its place.
+class Marks {
+ public:
+  explicit Marks(const Point& origin) : origin_(origin) {}
+
+  void add(const std::string& text, const double* place) {
+    json_ += json_.empty() ? "{\"text\":" : ",{\"text\":";
+    json_ += json_string(text) + ",\"at\":[";
+    for (size_t k = 0; k < 3; ++k) {
+      if (k > 0) json_ += ',';
+      append_double(json_, place[k] - origin_[k]);
+    }
+    json_ += "]}";
+  }
+  std::string list() const { return '[' + json_ + ']'; }
+
+ private:
+  Point origin_;
+  std::string json_;
+};
+
+std::string length_text(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", length);
+  return text;
+}
+
+void mark_preparation(const wsk_network_view& prepared, Marks& marks) {
+  for (uint32_t i = 0; i < prepared.snap_count; ++i) {
+    const wsk_snap& snap = prepared.snaps[i];
+    marks.add("curves " + std::to_string(snap.a.curve) + " and " + std::to_string(snap.b.curve) +
+                  " joined over " + length_text(snap.distance),
+              snap.a.position);
+  }
+  for (uint32_t i = 0; i < prepared.contradiction_count; ++i) {
+    const wsk_contradiction& pair = prepared.contradictions[i];
+    marks.add("normals of curves " + std::to_string(pair.a.curve) + " and " +
+                  std::to_string(pair.b.curve) + " contradict each other",
+              pair.a.position);
+  }
+}
+
+// The corner of the patch's first triangle stands for the patch.
+void mark_patch(const wsk_surface_view& surface, uint32_t patch, const std::string& text,
+                Marks& marks) {
+  for (size_t t = 0; t < surface.triangle_count; ++t) {
+    if (surface.triangle_patch[t] != patch) continue;
+    double middle[3] = {0.0, 0.0, 0.0};
+    for (size_t c = 0; c < 9; ++c) {
+      const size_t v = surface.triangles[3 * t + c / 3];
+      middle[c % 3] += surface.positions[3 * v + c % 3] / 3.0;
+    }
+    marks.add(text, middle);
+    return;
+  }
+}
+
+void mark_flow(const wsk_surface_view& surface, const FlowSummary& flow, Marks& marks) {
+  for (uint32_t p = 0; p < flow.patches.size(); ++p) {
+    if (flow.patches[p].open == 0) continue;
+    mark_patch(surface, p,
+               "patch " + std::to_string(p) + " is open: part of its border is no curve", marks);
+  }
 }
 
 std::string base64(std::string_view bytes) {
@@ -162,7 +231,10 @@ std::string page_bytes(const PageInput& input) {
   const Point origin = middle_of(input.surface);
   Arrays arrays;
   add_surface(input.surface, origin, arrays);
-  add_samples(input.network, origin, arrays);
+  add_samples(input.result, origin, arrays);
+  Marks marks(origin);
+  mark_preparation(input.result.prepared_view(), marks);
+  if (input.result.flow != nullptr) mark_flow(input.surface, *input.result.flow, marks);
   std::string origin_text;
   for (size_t k = 0; k < 3; ++k) {
     if (k > 0) origin_text += ',';
@@ -170,8 +242,8 @@ std::string page_bytes(const PageInput& input) {
   }
   const std::string header = "{\"title\":" + json_string(input.title) +
                              ",\"up\":" + std::to_string(input.up_axis) + ",\"origin\":[" +
-                             origin_text + "],\"marks\":[],\"report\":" + input.report +
-                             ",\"arrays\":" + arrays.list() + "}";
+                             origin_text + "],\"marks\":" + marks.list() +
+                             ",\"report\":" + input.report + ",\"arrays\":" + arrays.list() + "}";
   std::string scene;
   append_little(scene, static_cast<uint32_t>(header.size()));
   scene += header;

@@ -9,8 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "network.h"
-#include "wireskin.h"
+#include "build.h"
 
 namespace wireskin_cli {
 
@@ -19,7 +18,7 @@ extern const std::string_view k_page;
 
 struct PageInput {
   const wsk_surface_view& surface;
-  const Network& network;
+  const BuildResult& result;
   std::string title;
   std::string report;  // JSON
   int up_axis = 2;

@@ -2,9 +2,18 @@
 // memory that hold a handle with all its arrays, and the way a call ends. Defined in api.cpp.
 #pragma once
 
-#include "base/array.h"
+#include <cstring>
+
 #include "num/scale.h"
+#include "surface.h"
 #include "wireskin.h"
+
+// One block of the caller's memory holds the handle and, behind it, all arrays of the view.
+struct wsk_surface {
+  wireskin::Allocator allocator;
+  size_t bytes;
+  wsk_surface_view view;
+};
 
 namespace wireskin::api {
 
@@ -52,6 +61,7 @@ Status read_options(const wsk_options* given, wsk_options* options);
 Allocator allocator_of(const wsk_options& options);
 Callbacks callbacks_of(const wsk_options& options);
 
+void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report);
 void report_costs(Context& context, wsk_report* report);
 
 // Copies the report out, as much of it as the caller's version has.
@@ -75,5 +85,8 @@ inline const double* write_vectors(unsigned char* block, size_t offset, Span<con
   }
   return out;
 }
+
+// The surface in the caller's units, in one block.
+Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out);
 
 }  // namespace wireskin::api

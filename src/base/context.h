@@ -101,6 +101,12 @@ class Context {
     running_ = false;
   }
 
+  // For a context that outlives its call: the callbacks' users may not.
+  void forget_callbacks() {
+    stop_clock();
+    callbacks_ = {};
+  }
+
   // Numerical factorisations so far, for the report.
   void count_factorisation() { ++factorisations_; }
   uint32_t factorisations() const { return factorisations_; }

@@ -27,7 +27,9 @@ struct LoopRefinement {
   Array<uint32_t>* triangle;
   Array<double> size;  // wished, of each point
   Array<uint32_t> twins;
-  Array<uint32_t> suspect;  // half-edges that may have to be flipped
+  Array<uint32_t> suspect;    // half-edges that may have to be flipped
+  Span<const uint32_t> name;  // of the held points; empty: all are different
+  bool may_relax = true;
 
   LoopRefinement(Context& context, uint32_t rim_vertices, double wished, Array<Vec3>* points,
                  Array<uint32_t>* triangles)
@@ -43,6 +45,9 @@ struct LoopRefinement {
   uint32_t head(uint32_t h) const { return (*triangle)[next_half_edge(h)]; }
   uint32_t apex(uint32_t h) const { return (*triangle)[previous_half_edge(h)]; }
   const Vec3& at(uint32_t v) const { return (*position)[v]; }
+  bool same(uint32_t u, uint32_t v) const {
+    return u == v || (u < name.size() && v < name.size() && name[u] == name[v]);
+  }
 };
 
 // The two triangles at a half-edge from a to b; c and d are opposite to it.
@@ -84,12 +89,12 @@ static double greatest_cotangent(const LoopRefinement& r, uint32_t i, uint32_t j
 static bool joined(const LoopRefinement& r, uint32_t from_half_edge, uint32_t to) {
   uint32_t h = from_half_edge;
   do {
-    if (r.head(h) == to || r.apex(h) == to) return true;
+    if (r.same(r.head(h), to) || r.same(r.apex(h), to)) return true;
     h = r.twins[previous_half_edge(h)];
   } while (h != k_none && h != from_half_edge);
   if (h == from_half_edge) return false;
   for (h = r.twins[from_half_edge]; h != k_none; h = r.twins[next_half_edge(h)]) {
-    if (r.apex(h) == to) return true;
+    if (r.same(r.apex(h), to)) return true;
   }
   return false;
 }
@@ -176,6 +181,7 @@ static double size_between(const LoopRefinement& r, uint32_t a, uint32_t b) {
 static double excess(const LoopRefinement& r, uint32_t h) {
   if (r.twins[h] == k_none) return 0.0;
   const Diamond q = diamond_at(r, h);
+  if (r.same(q.c, q.d)) return 0.0;
   const Vec3 middle = 0.5 * (r.at(q.a) + r.at(q.b));
   const double size = size_between(r, q.a, q.b);
   if (length(r.at(q.c) - middle) < k_close * size) return 0.0;
@@ -281,9 +287,10 @@ static void grade_sizes(LoopRefinement* r, const Stars& stars) {
 }
 
 static Status relax_and_flip(LoopRefinement* r, int tangential, int free, Stars* stars) {
+  if (!r->may_relax) tangential = free = 0;
   for (int sweep = 0; sweep < tangential; ++sweep) TRY(relax_inner(r, true, stars));
   for (int sweep = 0; sweep < free; ++sweep) TRY(relax_inner(r, false, stars));
-  grade_sizes(r, *stars);
+  if (r->may_relax) grade_sizes(r, *stars);
   return flip_everywhere(r);
 }
 
@@ -298,16 +305,8 @@ static void grade_rim(LoopRefinement* r) {
   }
 }
 
-static Status wish_sizes(LoopRefinement* r) {
-  TRY(r->size.assign(r->rim, 0.0));
+static Status limit_points(LoopRefinement* r) {
   double area = 0.0;
-  for (uint32_t v = 0; v < r->rim; ++v) {
-    const uint32_t next = v + 1 < r->rim ? v + 1 : 0;
-    const double edge = length(r->at(next) - r->at(v));
-    r->size[v] += 0.5 * edge;
-    r->size[next] += 0.5 * edge;
-  }
-  grade_rim(r);
   for (uint32_t h = 0; h < r->triangle->size(); h += 3) {
     area += 0.5 * length(cross(r->at(r->head(h)) - r->at(r->origin(h)),
                                r->at(r->apex(h)) - r->at(r->origin(h))));
@@ -321,29 +320,71 @@ static Status wish_sizes(LoopRefinement* r) {
   return {};
 }
 
-Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
-                   Array<uint32_t>* triangle) {
-  LoopRefinement r(context, rim, spacing, position, triangle);
-  Stars stars(context);
-  TRY(find_twins(rim, triangle->span(), &r.twins));
-  TRY(wish_sizes(&r));
-  TRY(flip_everywhere(&r));
+static Status wish_sizes(LoopRefinement* r) {
+  TRY(r->size.assign(r->rim, 0.0));
+  for (uint32_t v = 0; v < r->rim; ++v) {
+    const uint32_t next = v + 1 < r->rim ? v + 1 : 0;
+    const double edge = length(r->at(next) - r->at(v));
+    r->size[v] += 0.5 * edge;
+    r->size[next] += 0.5 * edge;
+  }
+  grade_rim(r);
+  return limit_points(r);
+}
+
+// Held points on the border wish the mean of the border's edges there, others the spacing.
+static Status wish_sizes_of_patch(LoopRefinement* r) {
+  TRY(r->size.assign(r->rim, 0.0));
+  for (uint32_t h = 0; h < r->twins.size(); ++h) {
+    if (r->twins[h] != k_none) continue;
+    const double edge = length(r->at(r->head(h)) - r->at(r->origin(h)));
+    r->size[r->origin(h)] += 0.5 * edge;
+    r->size[r->head(h)] += 0.5 * edge;
+  }
+  for (double& size : r->size) {
+    if (size == 0.0) size = r->spacing;
+  }
+  return limit_points(r);
+}
+
+static Status refine_all(LoopRefinement* r) {
+  Stars stars(r->suspect.context());
+  TRY(flip_everywhere(r));
   double level = 0.0;
-  for (uint32_t h = 0; h < r.twins.size(); ++h) level = larger(level, excess(r, h));
+  for (uint32_t h = 0; h < r->twins.size(); ++h) level = larger(level, excess(*r, h));
   size_t splits = 0;
   while (level * k_level > k_long_edge) {
     level *= k_level;
-    TRY(split_longer(&r, level, &splits));
-    TRY(relax_and_flip(&r, k_relaxing_sweeps_of_level, 0, &stars));
+    TRY(split_longer(r, level, &splits));
+    TRY(relax_and_flip(r, k_relaxing_sweeps_of_level, 0, &stars));
   }
   for (int pass = 0; pass < k_most_passes; ++pass) {
-    TRY(split_longer(&r, k_long_edge, &splits));
+    TRY(split_longer(r, k_long_edge, &splits));
     if (splits == 0) break;
-    TRY(relax_and_flip(&r, k_relaxing_sweeps_of_level, 0, &stars));
+    TRY(relax_and_flip(r, k_relaxing_sweeps_of_level, 0, &stars));
   }
-  TRY(relax_and_flip(&r, k_last_relaxing_sweeps, 0, &stars));
-  TRY(relax_and_flip(&r, 0, k_umbrella_sweeps, &stars));
-  return relax_and_flip(&r, k_last_relaxing_sweeps, 0, &stars);
+  TRY(relax_and_flip(r, k_last_relaxing_sweeps, 0, &stars));
+  TRY(relax_and_flip(r, 0, k_umbrella_sweeps, &stars));
+  return relax_and_flip(r, k_last_relaxing_sweeps, 0, &stars);
+}
+
+Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
+                   Array<uint32_t>* triangle) {
+  LoopRefinement r(context, rim, spacing, position, triangle);
+  TRY(find_twins(rim, triangle->span(), &r.twins));
+  TRY(wish_sizes(&r));
+  return refine_all(&r);
+}
+
+Status refine_patch(Context& context, double spacing, bool relax, Span<const uint32_t> name,
+                    Array<Vec3>* position, Array<uint32_t>* triangle) {
+  const uint32_t held = static_cast<uint32_t>(position->size());
+  LoopRefinement r(context, held, spacing, position, triangle);
+  r.name = name;
+  r.may_relax = relax;
+  TRY(find_twins(held, triangle->span(), &r.twins));
+  TRY(wish_sizes_of_patch(&r));
+  return refine_all(&r);
 }
 
 }  // namespace wireskin::mesh

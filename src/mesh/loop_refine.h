@@ -18,4 +18,10 @@ namespace wireskin::mesh {
 Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
                    Array<uint32_t>* triangle);
 
+// The same for any oriented manifold mesh: all points given are held, and so are the border's
+// edges, in whatever loops they come. Points of one name are one place where the mesh was cut open:
+// no point is joined to two of them. Without `relax` inner points stay where splits put them.
+Status refine_patch(Context& context, double spacing, bool relax, Span<const uint32_t> name,
+                    Array<Vec3>* position, Array<uint32_t>* triangle);
+
 }  // namespace wireskin::mesh

@@ -1,0 +1,249 @@
+#include "flow/crossings.h"
+
+#include "base/sort.h"
+#include "num/minmax.h"
+#include "num/predicates.h"
+#include "num/predicates3.h"
+
+namespace wireskin::flow {
+
+namespace {
+
+struct Box {
+  Vec3 low, high;
+};
+
+// Cells of a uniform grid along each axis.
+struct CrossingGrid {
+  Vec3 low;
+  double per_cell = 0.0;
+  uint32_t size[3] = {1, 1, 1};
+};
+
+struct CellRange {
+  uint32_t low[3], high[3];
+};
+
+}  // namespace
+
+// ---- Two triangles ------------------------------------------------------------------------------
+
+static Vec2 drop_axis(const Vec3& p, int axis) {
+  if (axis == 0) return {p.y, p.z};
+  return axis == 1 ? Vec2{p.z, p.x} : Vec2{p.x, p.y};
+}
+
+static int sign_of(double x) {
+  return (x > 0.0) - (x < 0.0);
+}
+
+// An axis along which the triangle shows an area; 3 if there is none.
+static int visible_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (orient2d(drop_axis(a, axis), drop_axis(b, axis), drop_axis(c, axis)) != 0.0) return axis;
+  }
+  return 3;
+}
+
+static bool on_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  return smaller(a.x, b.x) <= p.x && p.x <= larger(a.x, b.x) && smaller(a.y, b.y) <= p.y &&
+         p.y <= larger(a.y, b.y);
+}
+
+static bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const int c_side = sign_of(orient2d(a, b, c)), d_side = sign_of(orient2d(a, b, d));
+  const int a_side = sign_of(orient2d(c, d, a)), b_side = sign_of(orient2d(c, d, b));
+  if (c_side * d_side < 0 && a_side * b_side < 0) return true;
+  return (c_side == 0 && on_segment(c, a, b)) || (d_side == 0 && on_segment(d, a, b)) ||
+         (a_side == 0 && on_segment(a, c, d)) || (b_side == 0 && on_segment(b, c, d));
+}
+
+// All in one plane.
+static bool segment_meets_flat(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
+                               const Vec3& c) {
+  const int axis = visible_axis(a, b, c);
+  if (axis == 3) return false;
+  const Vec2 u = drop_axis(p, axis), v = drop_axis(q, axis);
+  const Vec2 corner[3] = {drop_axis(a, axis), drop_axis(b, axis), drop_axis(c, axis)};
+  bool inside = true;
+  const int turn = sign_of(orient2d(corner[0], corner[1], corner[2]));
+  for (int k = 0; k < 3; ++k) {
+    const Vec2 &from = corner[k], &to = corner[(k + 1) % 3];
+    if (sign_of(orient2d(from, to, u)) * turn < 0) inside = false;
+    if (segments_meet(u, v, from, to)) return true;
+  }
+  return inside;
+}
+
+// Whether the closed segment has a point in the closed triangle.
+static bool segment_meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
+                          const Vec3& c) {
+  const int p_side = sign_of(orient3d(a, b, c, p)), q_side = sign_of(orient3d(a, b, c, q));
+  if (p_side * q_side > 0) return false;
+  if (p_side == 0 && q_side == 0) return segment_meets_flat(p, q, a, b, c);
+  const int ab = sign_of(orient3d(p, q, a, b)), bc = sign_of(orient3d(p, q, b, c));
+  const int ca = sign_of(orient3d(p, q, c, a));
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+// Triangles u v p and v u q: they overlap if they lie in one plane on one side of u v.
+static bool fold_over(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q) {
+  if (orient3d(u, v, p, q) != 0.0) return false;
+  const int axis = visible_axis(u, v, p);
+  if (axis == 3) return false;
+  const Vec2 a = drop_axis(u, axis), b = drop_axis(v, axis);
+  return sign_of(orient2d(a, b, drop_axis(p, axis))) == sign_of(orient2d(a, b, drop_axis(q, axis)));
+}
+
+bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_t* b) {
+  uint32_t shared = 0, at_a = 0, at_b = 0, sum_a = 0, sum_b = 0;
+  for (uint32_t i = 0; i < 3; ++i) {
+    for (uint32_t j = 0; j < 3; ++j) {
+      if (a[i] != b[j]) continue;
+      ++shared;
+      at_a = i, at_b = j;
+      sum_a += i, sum_b += j;
+    }
+  }
+  const Vec3* const p = position.data();
+  if (shared == 3) return true;
+  if (shared == 2) {
+    // The corners that are not shared are what is left of 0 + 1 + 2.
+    const uint32_t i = 3 - sum_a, j = 3 - sum_b;
+    return fold_over(p[a[(i + 1) % 3]], p[a[(i + 2) % 3]], p[a[i]], p[b[j]]);
+  }
+  if (shared == 1) {
+    const uint32_t* const t[2] = {a, b};
+    const uint32_t at[2] = {at_a, at_b};
+    for (int k = 0; k < 2; ++k) {
+      const uint32_t* const s = t[k];
+      const uint32_t* const r = t[1 - k];
+      if (segment_meets(p[s[(at[k] + 1) % 3]], p[s[(at[k] + 2) % 3]], p[r[0]], p[r[1]], p[r[2]])) {
+        return true;
+      }
+    }
+    return false;
+  }
+  for (uint32_t k = 0; k < 3; ++k) {
+    if (segment_meets(p[a[k]], p[a[(k + 1) % 3]], p[b[0]], p[b[1]], p[b[2]])) return true;
+    if (segment_meets(p[b[k]], p[b[(k + 1) % 3]], p[a[0]], p[a[1]], p[a[2]])) return true;
+  }
+  return false;
+}
+
+// ---- All triangles ------------------------------------------------------------------------------
+
+static Box box_of(Span<const Vec3> position, const uint32_t* t) {
+  Box box = {position[t[0]], position[t[0]]};
+  for (int k = 1; k < 3; ++k) {
+    const Vec3& p = position[t[k]];
+    box.low = {smaller(box.low.x, p.x), smaller(box.low.y, p.y), smaller(box.low.z, p.z)};
+    box.high = {larger(box.high.x, p.x), larger(box.high.y, p.y), larger(box.high.z, p.z)};
+  }
+  return box;
+}
+
+static bool apart(const Box& a, const Box& b) {
+  return a.high.x < b.low.x || b.high.x < a.low.x || a.high.y < b.low.y || b.high.y < a.low.y ||
+         a.high.z < b.low.z || b.high.z < a.low.z;
+}
+
+static uint32_t cell_along(double x, double low, double per_cell, uint32_t size) {
+  const double at = (x - low) * per_cell;
+  if (!(at > 0.0)) return 0;
+  return at < size ? static_cast<uint32_t>(at) : size - 1;
+}
+
+static CellRange cells_of(const CrossingGrid& grid, const Box& box) {
+  const double low[3] = {box.low.x, box.low.y, box.low.z};
+  const double high[3] = {box.high.x, box.high.y, box.high.z};
+  const double base[3] = {grid.low.x, grid.low.y, grid.low.z};
+  CellRange range;
+  for (int k = 0; k < 3; ++k) {
+    range.low[k] = cell_along(low[k], base[k], grid.per_cell, grid.size[k]);
+    range.high[k] = cell_along(high[k], base[k], grid.per_cell, grid.size[k]);
+  }
+  return range;
+}
+
+template <typename Visit>
+static void each_cell(const CrossingGrid& grid, const CellRange& range, const Visit& visit) {
+  for (uint32_t z = range.low[2]; z <= range.high[2]; ++z) {
+    for (uint32_t y = range.low[1]; y <= range.high[1]; ++y) {
+      for (uint32_t x = range.low[0]; x <= range.high[0]; ++x) {
+        visit((z * grid.size[1] + y) * grid.size[0] + x);
+      }
+    }
+  }
+}
+
+// Cells about as large as the mean triangle.
+static CrossingGrid choose_grid(Span<const Vec3> position, Span<const uint32_t> triangle) {
+  CrossingGrid grid;
+  Box all = box_of(position, triangle.data());
+  double sum = 0.0;
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    const Box box = box_of(position, &triangle[t]);
+    const Vec3 extent = box.high - box.low;
+    sum += larger(extent.x, larger(extent.y, extent.z));
+    all.low = {smaller(all.low.x, box.low.x), smaller(all.low.y, box.low.y),
+               smaller(all.low.z, box.low.z)};
+    all.high = {larger(all.high.x, box.high.x), larger(all.high.y, box.high.y),
+                larger(all.high.z, box.high.z)};
+  }
+  grid.low = all.low;
+  const Vec3 extent = all.high - all.low;
+  const double greatest = larger(extent.x, larger(extent.y, extent.z));
+  if (!(sum > 0.0)) return grid;
+  const double cell = larger(sum / (static_cast<double>(triangle.size()) / 3.0), greatest / 200.0);
+  const double along[3] = {extent.x, extent.y, extent.z};
+  grid.per_cell = 1.0 / cell;
+  for (int k = 0; k < 3; ++k) grid.size[k] = static_cast<uint32_t>(along[k] / cell) + 1;
+  return grid;
+}
+
+Status find_crossings(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
+                      size_t most, Array<uint32_t>* pairs) {
+  pairs->clear();
+  if (triangle.empty()) return {};
+  const uint32_t count = static_cast<uint32_t>(triangle.size() / 3);
+  const CrossingGrid grid = choose_grid(position, triangle);
+  Array<uint32_t> start(context), item(context), met(context);
+  TRY(start.assign(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0));
+  TRY(met.assign(count, k_none));
+  const auto range_of = [&](uint32_t t) {
+    return cells_of(grid, box_of(position, &triangle[3 * size_t{t}]));
+  };
+  for (uint32_t t = 0; t < count; ++t) {
+    each_cell(grid, range_of(t), [&](uint32_t cell) { ++start[cell]; });
+  }
+  TRY(item.resize(starts_from_counts(start.span())));
+  for (uint32_t t = 0; t < count; ++t) {
+    each_cell(grid, range_of(t), [&](uint32_t cell) { item[start[cell]++] = t; });
+  }
+  for (size_t c = start.size() - 1; c > 0; --c) start[c] = start[c - 1];
+  start[0] = 0;
+  TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
+  for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
+    const Box box = box_of(position, &triangle[3 * size_t{t}]);
+    Array<uint32_t>& found = *pairs;
+    Status status;
+    each_cell(grid, cells_of(grid, box), [&](uint32_t cell) {
+      for (uint32_t i = start[cell]; i < start[cell + 1]; ++i) {
+        const uint32_t other = item[i];
+        if (other >= t || met[other] == t) continue;
+        met[other] = t;
+        const uint32_t* const corners = &triangle[3 * size_t{other}];
+        if (apart(box, box_of(position, corners))) continue;
+        if (!triangles_cross(position, corners, &triangle[3 * size_t{t}])) continue;
+        if (status.ok()) status = found.push(other);
+        if (status.ok()) status = found.push(t);
+      }
+    });
+    TRY(status);
+    if (t % 4096 == 0) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+}  // namespace wireskin::flow

@@ -1,0 +1,86 @@
+#include "flow/flow.h"
+
+#include "num/minmax.h"
+
+namespace wireskin::flow {
+
+Status build_flow(Context& context, const Polylines& polylines, const FlowOptions& options,
+                  Flow* flow) {
+  TRY(context.enter(Stage::curves));
+  TRY(find_arcs(context, polylines, &flow->arcs));
+  flow->step = options.sampling;
+  if (!(flow->step > 0.0)) flow->step = k_default_sampling * flow->arcs.diagonal;
+  if (!(options.sampling > 0.0) && options.spacing > 0.0) {
+    flow->step = smaller(flow->step, options.spacing);
+  }
+  TRY(sample_arcs(context, flow->arcs, flow->step, &flow->samples));
+  TRY(find_tangents(flow->samples, &flow->tangents));
+  TRY(context.enter(Stage::network));
+  TRY(build_complex(context, flow->samples.position.span(), options.complex, &flow->complex));
+  TRY(find_curve_edges(flow->complex, flow->samples, &flow->curves));
+  return find_persistence(context, flow->complex, &flow->persistence);
+}
+
+// Components of walls and curves, counted over all samples.
+static Status count_components(Context& context, const Flow& flow, const Sheet& walls,
+                               uint32_t* components, int64_t* euler) {
+  const Complex& complex = flow.complex;
+  Array<uint32_t> parent(context);
+  TRY(parent.resize(complex.point.size()));
+  int64_t vertices = 0, edges = 0, triangles = 0;
+  for (uint32_t v = 0; v < parent.size(); ++v) {
+    parent[v] = complex.same_as[v];
+    if (parent[v] == v) ++vertices;
+  }
+  const auto root_of = [&](uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  *components = static_cast<uint32_t>(vertices);
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (walls.degree[e] == 0 && !flow.curves.on_curve(e)) continue;
+    ++edges;
+    const uint32_t a = root_of(complex.edge[2 * size_t{e}]);
+    const uint32_t b = root_of(complex.edge[2 * size_t{e} + 1]);
+    if (a == b) continue;
+    parent[a < b ? b : a] = a < b ? a : b;
+    --*components;
+  }
+  for (const uint8_t in : walls.in) triangles += in;
+  *euler = vertices - edges + triangles;
+  return {};
+}
+
+static Status count_topology(Context& context, const Flow& flow, Reconstruction* result) {
+  const Sheet& walls = result->topology.walls;
+  Array<uint32_t> label(context);
+  int64_t euler = 0;
+  TRY(count_components(context, flow, walls, &result->betti[0], &euler));
+  TRY(label_rooms(flow.complex, walls, &label));
+  uint32_t rooms = 0;
+  for (uint32_t i = 0; i < label.size(); ++i) rooms += label[i] == i;
+  result->betti[2] = rooms - 1;
+  const int64_t loops = int64_t{result->betti[0]} + int64_t{result->betti[2]} - euler;
+  result->betti[1] = static_cast<uint32_t>(loops);
+  for (uint32_t i = 0; i < flow.curves.edge_of.size(); ++i) {
+    const uint32_t e = flow.curves.edge_of[i];
+    if (e != k_none && walls.degree[e] == 0) TRY(result->bare.push(i));
+  }
+  for (const uint32_t degree : walls.degree) result->crowded_edges += degree > 2;
+  for (const PatchFacts& p : result->patches.facts) result->open_patches += p.open;
+  return {};
+}
+
+Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptions& options,
+                   Reconstruction* result) {
+  TRY(context.enter(Stage::patches));
+  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.persistence, options.topology,
+                           &result->topology));
+  TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.persistence, flow.tangents,
+                        options.thicken, &result->topology));
+  TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.persistence,
+                  result->topology, &result->patches));
+  return count_topology(context, flow, result);
+}
+
+}  // namespace wireskin::flow

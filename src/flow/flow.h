@@ -1,0 +1,64 @@
+// Surfaces from curves alone: the steps from polylines to walls and patches, in two halves, so that
+// the second can be asked again for another number of voids or another threshold at no cost.
+//
+// In: polylines, scaled so that their extent is about one. Out: Flow, which keeps samples, complex
+// and voids; from it Reconstruction, the walls and patches for one choice of options. Sources: B.
+// Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014; the Delaunay
+// version of it: U. Bauer, F. Roll, "Wrapping Cycles in Delaunay Complexes", 2024.
+#pragma once
+
+#include "flow/patches.h"
+#include "flow/thicken.h"
+
+namespace wireskin::flow {
+
+inline constexpr double k_default_sampling = 0.02;  // of the diagonal
+
+struct FlowOptions {
+  // The greatest step, a length; 0: k_default_sampling, or the spacing of the result if that is
+  // less.
+  double sampling = 0.0;
+  double spacing = 0.0;
+  ComplexOptions complex;
+};
+
+struct Flow {
+  double step = 0.0;  // the greatest between samples
+  Arcs arcs;
+  Samples samples;
+  Complex complex;
+  CurveEdges curves;
+  Persistence persistence;
+  SampleTangents tangents;
+
+  explicit Flow(Context& context)
+      : arcs(context),
+        samples(context),
+        complex(context),
+        curves(context),
+        persistence(context),
+        tangents(context) {}
+};
+
+Status build_flow(Context& context, const Polylines& polylines, const FlowOptions& options,
+                  Flow* flow);
+
+struct ReconstructionOptions {
+  TopologyOptions topology;
+  ThickenOptions thicken;
+};
+
+struct Reconstruction {
+  Topology3 topology;
+  Patches patches;
+  Array<uint32_t> bare;    // segments without a triangle, places in Samples::at
+  uint32_t betti[3] = {};  // of the walls and the curves together
+  uint32_t open_patches = 0;
+  uint32_t crowded_edges = 0;  // edges of more than two triangles
+  explicit Reconstruction(Context& context) : topology(context), patches(context), bare(context) {}
+};
+
+Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptions& options,
+                   Reconstruction* result);
+
+}  // namespace wireskin::flow

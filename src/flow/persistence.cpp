@@ -1,0 +1,111 @@
+#include "flow/persistence.h"
+
+#include <cstring>
+
+#include "base/sort.h"
+#include "flow/radix_sort.h"
+#include "num/minmax.h"
+
+namespace wireskin::flow {
+
+static constexpr double k_least_ratio = 1.0 + 1e-6;
+
+// Components of the complement of the balls as the radius shrinks: union-find over the tetrahedra
+// and, as the last node, the outside. Each root knows the maximum of its component.
+struct VoidForest {
+  explicit VoidForest(Context& context) : parent(context), maximum(context) {}
+
+  Array<uint32_t> parent;
+  Array<uint32_t> maximum;
+
+  uint32_t root_of(uint32_t node) {
+    while (parent[node] != node) {
+      parent[node] = parent[parent[node]];
+      node = parent[node];
+    }
+    return node;
+  }
+};
+
+static bool lower_maximum(const Complex& complex, uint32_t a, uint32_t b) {
+  const uint32_t outside = complex.tet_count();
+  if (a == outside || b == outside) return b == outside && a != outside;
+  const double fa = complex.tet_value[a];
+  const double fb = complex.tet_value[b];
+  return fa != fb ? fa < fb : a < b;
+}
+
+// Values are not negative, so the order of their bits is theirs; turned over, the greatest is
+// first.
+static uint64_t descending_bits(double value) {
+  uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return ~bits;
+}
+
+// By decreasing value, then number.
+static Status sort_triangles(Context& context, const Complex& complex, Array<BitsKey>* keys) {
+  const uint32_t count = complex.triangle_count();
+  TRY(keys->resize(count));
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t t = count - 1 - i;
+    (*keys)[i] = {descending_bits(complex.triangle_value[t]), t};
+  }
+  return radix_sort(context, keys);
+}
+
+static Void describe_void(const Complex& complex, uint32_t creator, uint32_t maximum) {
+  const double cap = 0.375 * complex.diagonal * complex.diagonal;
+  const double f = complex.triangle_value[creator];
+  const double filling = smaller(complex.tet_value[maximum], cap);
+  const double capped = smaller(f, cap);
+  const double ratio = capped > 0.0 ? std::sqrt(filling / capped) : 1.0;
+  return {creator, maximum, std::sqrt(f), std::sqrt(filling), ratio};
+}
+
+static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
+                         Persistence* persistence) {
+  Array<Void>& voids = persistence->voids;
+  voids.clear();
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (maximum_of[t] == k_none) continue;
+    const Void one = describe_void(complex, t, maximum_of[t]);
+    if (one.ratio > k_least_ratio) TRY(voids.push(one));
+  }
+  sort(voids.span(), [](const Void& a, const Void& b) {
+    return a.ratio != b.ratio ? a.ratio > b.ratio : a.creator < b.creator;
+  });
+  TRY(persistence->void_of.assign(complex.triangle_count(), k_none));
+  for (uint32_t i = 0; i < voids.size(); ++i) persistence->void_of[voids[i].creator] = i;
+  return {};
+}
+
+Status find_persistence(Context& context, const Complex& complex, Persistence* persistence) {
+  constexpr size_t k_triangles_per_checkpoint = 1u << 16;
+  const uint32_t outside = complex.tet_count();
+  Array<BitsKey> keys(context);
+  Array<uint32_t> maximum_of(context);
+  VoidForest voids(context);
+  TRY(sort_triangles(context, complex, &keys));
+  TRY(maximum_of.assign(complex.triangle_count(), k_none));
+  TRY(persistence->creator.assign(complex.triangle_count(), 0));
+  TRY(voids.parent.resize(outside + 1));
+  TRY(voids.maximum.resize(outside + 1));
+  for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
+  for (size_t i = 0; i < keys.size(); ++i) {
+    if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
+    const uint32_t t = keys[i].index;
+    const uint32_t a = complex.triangle_side[2 * t];
+    const uint32_t b = complex.triangle_side[2 * t + 1];
+    uint32_t low = voids.root_of(a == k_none ? outside : a);
+    uint32_t high = voids.root_of(b == k_none ? outside : b);
+    if (low == high) continue;
+    if (lower_maximum(complex, voids.maximum[high], voids.maximum[low])) swap_values(low, high);
+    persistence->creator[t] = 1;
+    maximum_of[t] = voids.maximum[low];
+    voids.parent[low] = high;
+  }
+  return list_voids(complex, maximum_of.span(), persistence);
+}
+
+}  // namespace wireskin::flow

@@ -1,0 +1,275 @@
+#include "flow/sample.h"
+
+#include "flow/point_grid.h"
+#include "num/minmax.h"
+
+namespace wireskin::flow {
+
+static constexpr double k_least_step = 0.02;  // of the greatest one
+static constexpr uint32_t k_least_pieces = 3, k_least_pieces_of_loop = 6;
+static constexpr size_t k_most_samples = size_t{1} << 24;
+
+namespace {
+
+// Positions by arc length, for queries that walk forward.
+struct ArcWalk {
+  const Arcs& arcs;
+  uint32_t step;
+
+  ArcWalk(const Arcs& all, uint32_t arc) : arcs(all), step(all.start[arc]) {}
+  Vec3 at(double along, uint32_t last_step) {
+    while (step < last_step && arcs.along[step + 1] < along) ++step;
+    const double length = arcs.along[step + 1] - arcs.along[step];
+    const double share = length > 0.0 ? (along - arcs.along[step]) / length : 0.0;
+    const Vec3 &a = arcs.vertex[arcs.path[step]], &b = arcs.vertex[arcs.path[step + 1]];
+    return a + smaller(larger(share, 0.0), 1.0) * (b - a);
+  }
+};
+
+// Points along the arcs that are only used to measure how near arcs come to each other.
+struct CoarseArcs {
+  Array<uint32_t> start, arc;
+  Array<Vec3> point;
+
+  explicit CoarseArcs(Context& context) : start(context), arc(context), point(context) {}
+};
+
+// Arc lengths of the samples; arc a has along[start[a]] .. along[start[a + 1] - 1], ends included.
+struct Stations {
+  Array<uint32_t> start;
+  Array<double> along;
+
+  explicit Stations(Context& context) : start(context), along(context) {}
+};
+
+}  // namespace
+
+static uint32_t pieces_for(double length, double step) {
+  const double wished = length / step;
+  if (!(wished < 1e9)) return 1'000'000'000u;
+  const uint32_t pieces = static_cast<uint32_t>(wished);
+  return pieces * step < length ? pieces + 1 : pieces;
+}
+
+static double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a, e = p - a;
+  const double square = dot(d, d);
+  const double share = square > 0.0 ? smaller(larger(dot(d, e) / square, 0.0), 1.0) : 0.0;
+  return length(e - share * d);
+}
+
+static Status coarsen_arcs(Context& context, const Arcs& arcs, double step, CoarseArcs* coarse) {
+  TRY(coarse->start.push(0));
+  for (uint32_t a = 0; a < arcs.size(); ++a) {
+    const double whole = arcs.length_of(a);
+    const uint32_t pieces = pieces_for(whole, step) < 4 ? 4 : pieces_for(whole, step);
+    if (coarse->point.size() + pieces > k_most_samples) {
+      return fail(Code::too_large, "the step is too small for the curves");
+    }
+    ArcWalk walk(arcs, a);
+    for (uint32_t i = 0; i <= pieces; ++i) {
+      TRY(coarse->point.push(walk.at(whole * i / pieces, arcs.start[a + 1] - 2)));
+      TRY(coarse->arc.push(a));
+    }
+    TRY(coarse->start.push(static_cast<uint32_t>(coarse->point.size())));
+    if (a % 1024 == 0) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+// How far arc a strays from arc b, as soon as that is known to reach `enough`.
+static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double enough) {
+  double greatest = 0.0;
+  const uint32_t first = coarse.start[a], count = coarse.start[a + 1] - first;
+  for (uint32_t i = 0; i < count && greatest < enough; ++i) {
+    // From the middle on, where an arc that only crosses or continues this one is found far
+    // soonest.
+    const Vec3& p = coarse.point[first + (count / 2 + i) % count];
+    double least = DBL_MAX;
+    for (uint32_t j = coarse.start[b]; j + 1 < coarse.start[b + 1] && least > greatest; ++j) {
+      least = smaller(least, distance_to_segment(p, coarse.point[j], coarse.point[j + 1]));
+    }
+    greatest = larger(greatest, least);
+  }
+  return greatest;
+}
+
+// The greatest step of each arc: half its distance to the nearest other one.
+static Status choose_steps(Context& context, const Arcs& arcs, double greatest_step,
+                           Array<double>* steps) {
+  CoarseArcs coarse(context);
+  PointGrid grid(context);
+  Array<uint32_t> seen(context);
+  const double spacing = 0.5 * greatest_step;
+  TRY(steps->assign(arcs.size(), greatest_step));
+  TRY(coarsen_arcs(context, arcs, spacing, &coarse));
+  TRY(grid.build(coarse.point.span()));
+  TRY(seen.assign(arcs.size(), k_none));
+  for (uint32_t a = 0; a < arcs.size(); ++a) {
+    if (a % 64 == 0) TRY(context.checkpoint());
+    double nearest = 2.0 * greatest_step;
+    const uint32_t middle = coarse.start[a] + (coarse.start[a + 1] - coarse.start[a]) / 2;
+    seen[a] = a;
+    grid.any_near(coarse.point[middle], nearest + spacing, [&](uint32_t near) {
+      const uint32_t b = coarse.arc[near];
+      if (seen[b] == a) return false;
+      seen[b] = a;
+      nearest = smaller(nearest, stray(coarse, a, b, nearest));
+      return false;
+    });
+    (*steps)[a] = larger(0.5 * nearest, k_least_step * greatest_step);
+  }
+  return {};
+}
+
+static bool is_loop(const Arcs& arcs, uint32_t a) {
+  return arcs.path[arcs.start[a]] == arcs.path[arcs.start[a + 1] - 1];
+}
+
+// Divides every arc; at a node all arcs take the same first step, the least of their own.
+static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double> greatest,
+                          Stations* stations) {
+  Array<double> first_step(context);
+  TRY(first_step.assign(arcs.vertex.size(), DBL_MAX));
+  for (uint32_t a = 0; a < arcs.size(); ++a) {
+    const uint32_t ends[2] = {arcs.path[arcs.start[a]], arcs.path[arcs.start[a + 1] - 1]};
+    const uint32_t wished = pieces_for(arcs.length_of(a), greatest[a]);
+    const uint32_t least = is_loop(arcs, a) ? k_least_pieces_of_loop : k_least_pieces;
+    const double step = arcs.length_of(a) / (wished < least ? least : wished);
+    for (const uint32_t v : ends) first_step[v] = smaller(first_step[v], step);
+  }
+  TRY(stations->start.push(0));
+  for (uint32_t a = 0; a < arcs.size(); ++a) {
+    const double whole = arcs.length_of(a);
+    const double begin = first_step[arcs.path[arcs.start[a]]];
+    const double end = first_step[arcs.path[arcs.start[a + 1] - 1]];
+    const double rest = whole - begin - end;  // at least one step, there are three
+    const double step = arcs.closed[a] != 0 ? begin : greatest[a];
+    const uint32_t pieces = pieces_for(rest, step * (1.0 + 1e-9));
+    if (stations->along.size() + pieces > k_most_samples) {
+      return fail(Code::too_large, "curves so near to each other need too many samples");
+    }
+    TRY(stations->along.push(0.0));
+    for (uint32_t i = 0; i <= pieces; ++i) {
+      TRY(stations->along.push(begin + rest * i / (pieces == 0 ? 1 : pieces)));
+    }
+    TRY(stations->along.push(whole));
+    TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
+    if (a % 1024 == 0) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+// Nodes and isolated points first, then the inner samples arc by arc.
+static Status place_samples(Context& context, const Arcs& arcs, const Stations& stations,
+                            Samples* samples) {
+  const size_t room = stations.along.size();
+  Array<uint32_t> sample_of(context);
+  TRY(sample_of.assign(arcs.vertex.size(), k_none));
+  TRY(samples->start.copy(stations.start.span()));
+  TRY(samples->along.copy(stations.along.span()));
+  TRY(samples->at.resize(room));
+  TRY(samples->step.resize(room));
+  TRY(samples->position.reserve(room + arcs.vertex.size()));
+  TRY(samples->vertex.reserve(room + arcs.vertex.size()));
+  samples->position.clear();
+  samples->vertex.clear();
+  const auto add = [&](const Vec3& p, uint32_t vertex) {
+    if (vertex != k_none) sample_of[vertex] = static_cast<uint32_t>(samples->position.size());
+    samples->position.push_reserved(p);
+    samples->vertex.push_reserved(vertex);
+  };
+  for (uint32_t v = 0; v < arcs.vertex.size(); ++v) {
+    if (arcs.is_node[v] != 0) add(arcs.vertex[v], v);
+  }
+  for (const uint32_t v : arcs.point) add(arcs.vertex[v], v);
+  for (uint32_t a = 0; a < arcs.size(); ++a) {
+    const uint32_t first = stations.start[a], last = stations.start[a + 1] - 1;
+    const uint32_t last_step = arcs.start[a + 1] - 2;
+    const uint32_t begin = arcs.path[arcs.start[a]], end = arcs.path[last_step + 1];
+    if (sample_of[begin] == k_none) add(arcs.vertex[begin], begin);
+    ArcWalk walk(arcs, a);
+    for (uint32_t i = first; i <= last; ++i) {
+      const Vec3 p = walk.at(stations.along[i], last_step);
+      samples->step[i] = walk.step;
+      samples->at[i] = i == first  ? sample_of[begin]
+                       : i == last ? sample_of[end]
+                                   : static_cast<uint32_t>(samples->position.size());
+      if (i != first && i != last) add(p, k_none);
+    }
+  }
+  return {};
+}
+
+static bool encroached(const PointGrid& grid, const Samples& samples, uint32_t i) {
+  const uint32_t p = samples.at[i], q = samples.at[i + 1];
+  const Vec3 &a = samples.position[p], &b = samples.position[q];
+  return grid.any_near(0.5 * (a + b), 0.5 * length(b - a), [&](uint32_t r) {
+    if (r == p || r == q) return false;
+    const Vec3& c = samples.position[r];
+    return dot(a - c, b - c) < 0.0;
+  });
+}
+
+static double power_of_two_near(double x) {
+  double power = 1.0;
+  while (power > x) power *= 0.5;
+  return x - power > 2.0 * power - x ? 2.0 * power : power;
+}
+
+// Halfway; beside a node at a power of two from it, so that splits of all its arcs agree.
+static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i) {
+  const double from = samples.along[i], to = samples.along[i + 1], half = 0.5 * (to - from);
+  const uint32_t p = samples.vertex[samples.at[i]], q = samples.vertex[samples.at[i + 1]];
+  const bool at_p = p != k_none && arcs.is_node[p] != 0;
+  const bool at_q = q != k_none && arcs.is_node[q] != 0;
+  if (at_p == at_q) return from + half;
+  return at_p ? from + power_of_two_near(half) : to - power_of_two_near(half);
+}
+
+// One pass over all segments; true in *any if one was split.
+static Status split_encroached(Context& context, const Arcs& arcs, Samples* samples,
+                               Stations* stations, bool* any) {
+  PointGrid grid(context);
+  TRY(grid.build(samples->position.span()));
+  stations->start.clear();
+  stations->along.clear();
+  TRY(stations->start.push(0));
+  *any = false;
+  samples->too_short = 0;
+  for (uint32_t a = 0; a + 1 < samples->start.size(); ++a) {
+    const uint32_t last = samples->start[a + 1] - 1;
+    for (uint32_t i = samples->start[a]; i <= last; ++i) {
+      TRY(stations->along.push(samples->along[i]));
+      if (i == last || !encroached(grid, *samples, i)) continue;
+      if (samples->along[i + 1] - samples->along[i] < 2.0 * k_least_segment * arcs.diagonal) {
+        ++samples->too_short;
+        continue;
+      }
+      TRY(stations->along.push(split_at(arcs, *samples, i)));
+      ++samples->splits;
+      *any = true;
+      if (stations->along.size() > k_most_samples) {
+        return fail(Code::too_large, "curves so near to each other need too many samples");
+      }
+    }
+    TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
+    if (a % 256 == 0) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Samples* samples) {
+  Array<double> steps(context);
+  Stations stations(context);
+  TRY(choose_steps(context, arcs, greatest_step, &steps));
+  TRY(divide_arcs(context, arcs, steps.span(), &stations));
+  TRY(place_samples(context, arcs, stations, samples));
+  for (bool any = true; any;) {
+    TRY(split_encroached(context, arcs, samples, &stations, &any));
+    if (any) TRY(place_samples(context, arcs, stations, samples));
+  }
+  return {};
+}
+
+}  // namespace wireskin::flow

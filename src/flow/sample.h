@@ -1,0 +1,42 @@
+// Points on arcs, dense enough that nothing slips between them: the samples of which the flow
+// complex is made.
+//
+// In: arcs and the greatest step. Out: the samples, those of each arc in order, with the caller's
+// curve and the place on it. Invariants: every node and every isolated point is a sample bit for
+// bit; at a node all arcs begin with steps of the same length; steps are at most half the distance
+// to the nearest other arc (its directed Hausdorff distance) down to a floor; every segment is
+// Gabriel, that is, no sample lies in the ball of which it is the diameter, unless it is shorter
+// than k_least_segment, which is counted. Near-linear where arcs are not all near each other.
+// Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014,
+// section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells round nodes).
+#pragma once
+
+#include "flow/arcs.h"
+
+namespace wireskin::flow {
+
+inline constexpr double k_least_segment = 1e-5;  // of the diagonal
+
+struct Samples {
+  Array<Vec3> position;
+  Array<uint32_t> vertex;  // of Arcs, k_none inside of arcs
+  Array<uint32_t> start;   // arc a has at[start[a]] .. at[start[a + 1] - 1]; closed: first again
+  Array<uint32_t> at;      // samples
+  Array<double> along;     // arc length, parallel to `at`
+  Array<uint32_t> step;    // parallel: the arc's polyline segment (index in Arcs::path) it lies on
+  uint32_t splits = 0;     // made to become Gabriel
+  uint32_t too_short = 0;  // segments left that should have been split
+
+  explicit Samples(Context& context)
+      : position(context),
+        vertex(context),
+        start(context),
+        at(context),
+        along(context),
+        step(context) {}
+};
+
+// `greatest_step` is a length.
+Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Samples* samples);
+
+}  // namespace wireskin::flow

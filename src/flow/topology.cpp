@@ -1,0 +1,244 @@
+#include "flow/topology.h"
+
+#include "base/sort.h"
+
+namespace wireskin::flow {
+
+static constexpr uint32_t k_most_tries = 200;
+// Of a wall's border that may lie off the curves.
+static constexpr double k_loose_share = 0.1;
+
+static uint32_t side_of(const Complex& complex, uint32_t triangle, uint32_t side) {
+  const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
+  return t == k_none ? complex.tet_count() : t;
+}
+
+static uint32_t find_label(Span<uint32_t> label, uint32_t i) {
+  while (label[i] != i) i = label[i] = label[label[i]];
+  return i;
+}
+
+Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* label) {
+  const uint32_t outside = complex.tet_count();
+  TRY(label->resize(size_t{outside} + 1));
+  for (uint32_t i = 0; i <= outside; ++i) (*label)[i] = i;
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (sheet.in[t] != 0) continue;
+    const uint32_t a = find_label(label->span(), side_of(complex, t, 0));
+    const uint32_t b = find_label(label->span(), side_of(complex, t, 1));
+    if (a < b) (*label)[b] = a;
+    if (b < a) (*label)[a] = b;
+  }
+  for (uint32_t i = 0; i <= outside; ++i) (*label)[i] = find_label(label->span(), i);
+  return {};
+}
+
+// By the radii at which triangles are swallowed, greatest first.
+static void order_by_value(const Complex& complex, Array<uint32_t>* triangles) {
+  sort(triangles->span(), [&](uint32_t a, uint32_t b) {
+    const double fa = complex.triangle_value[a], fb = complex.triangle_value[b];
+    return fa != fb ? fa > fb : a > b;
+  });
+}
+
+// ---- Voids --------------------------------------------------------------------------------------
+
+static double edge_length(const Complex& complex, uint32_t e) {
+  return length(complex.point[complex.edge[2 * size_t{e}]] -
+                complex.point[complex.edge[2 * size_t{e} + 1]]);
+}
+
+// Whether the wall that a creator lies in ends on curves.
+static bool bounded_by_curves(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
+                              Span<const uint32_t> wall) {
+  double whole = 0.0, loose = 0.0;
+  for (const uint32_t t : wall) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      const bool by_curve = curves.by_curve(e);
+      if (!by_curve && sheet.degree[e] == 2) continue;
+      whole += edge_length(complex, e);
+      if (!by_curve) loose += edge_length(complex, e);
+    }
+  }
+  return loose <= k_loose_share * whole;
+}
+
+// Cuts the list where the ratios fall most.
+static void cut_at_gap(const Persistence& persistence, Array<uint32_t>* chosen) {
+  double greatest = 0.0;
+  size_t kept = 0;
+  for (size_t i = 0; i < chosen->size(); ++i) {
+    const double next = i + 1 < chosen->size() ? persistence.voids[(*chosen)[i + 1]].ratio : 1.0;
+    const double gap = persistence.voids[(*chosen)[i]].ratio / next;
+    if (gap > greatest) {
+      greatest = gap;
+      kept = i + 1;
+    }
+  }
+  chosen->shrink(kept);
+}
+
+namespace {
+
+// Everything that trying a void needs.
+struct VoidTrial {
+  Sheet all, peeled;
+  Array<uint32_t> mark, wall;
+
+  explicit VoidTrial(Context& context)
+      : all(context), peeled(context), mark(context), wall(context) {}
+};
+
+}  // namespace
+
+enum class Verdict : uint8_t { accepted, unbounded, gone };
+
+// Whether the creator's wall holds, together with those chosen before.
+static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_t creator,
+                       uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
+  TRY(copy_sheet(trial->all, &trial->peeled));
+  add_to_sheet(complex, creator, &trial->peeled);
+  peel(complex, curves, Protect::curves, &trial->peeled);
+  *verdict = Verdict::gone;
+  if (trial->peeled.in[creator] == 0) return {};
+  TRY(flood_patch(complex, curves, trial->peeled, creator, stamp, trial->mark.span(),
+                  &trial->wall));
+  const bool bounded = bounded_by_curves(complex, curves, trial->peeled, trial->wall.span());
+  *verdict = bounded ? Verdict::accepted : Verdict::unbounded;
+  return {};
+}
+
+Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
+                    const Persistence& persistence, const TopologyOptions& options,
+                    Array<uint32_t>* chosen) {
+  const bool automatic = options.voids < 0;
+  const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
+  VoidTrial trial(context);
+  Array<uint32_t> unbounded(context);
+  TRY(start_sheet(complex, &trial.all));
+  TRY(trial.mark.assign(complex.triangle_count(), k_none));
+  chosen->clear();
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial.all);
+  }
+  for (uint32_t i = 0; i < persistence.voids.size() && i < k_most_tries; ++i) {
+    if (automatic && persistence.voids[i].ratio < options.least_ratio) break;
+    if (chosen->size() == wished) break;
+    TRY(context.checkpoint());
+    const uint32_t creator = persistence.voids[i].creator;
+    Verdict verdict;
+    TRY(try_void(complex, curves, creator, i, &trial, &verdict));
+    if (verdict == Verdict::unbounded) TRY(unbounded.push(i));
+    if (verdict != Verdict::accepted) continue;
+    add_to_sheet(complex, creator, &trial.all);
+    TRY(chosen->push(i));
+  }
+  if (automatic) cut_at_gap(persistence, chosen);
+  // Who asks for a number gets it as far as anything is caged at all.
+  for (size_t k = 0; !automatic && k < unbounded.size() && chosen->size() < wished; ++k) {
+    TRY(chosen->push(unbounded[k]));
+  }
+  return {};
+}
+
+// ---- Handles and walls --------------------------------------------------------------------------
+
+static bool same_void(const Complex& complex, Span<const uint32_t> label, uint32_t triangle) {
+  return label[side_of(complex, triangle, 0)] == label[side_of(complex, triangle, 1)];
+}
+
+// Opens handles: triangles with one void on both sides that are part of no fin.
+static Status open_handles(Context& context, const Complex& complex, const CurveEdges& curves,
+                           Topology3* topology) {
+  Sheet& walls = topology->walls;
+  Sheet finless(context);
+  Array<uint32_t> order(context);
+  TRY(copy_sheet(walls, &finless));
+  peel(complex, curves, Protect::nothing, &finless);
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (finless.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+  }
+  order_by_value(complex, &order);
+  for (const uint32_t t : order) {
+    if (finless.in[t] == 0) continue;
+    begin_removal(&walls);
+    remove_triangle(complex, curves, t, &walls);
+    peel_after(complex, curves, Protect::curves, &walls);
+    if (walls.removed.size() > 1000) TRY(context.checkpoint());
+    if (walls.bared) {
+      undo_removal(complex, &walls);
+      continue;
+    }
+    begin_removal(&finless);
+    for (const uint32_t gone : walls.removed) remove_triangle(complex, curves, gone, &finless);
+    peel_after(complex, curves, Protect::nothing, &finless);
+  }
+  return {};
+}
+
+static bool has_open_border(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
+                            Span<const uint32_t> wall) {
+  for (const uint32_t t : wall) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (sheet.degree[e] != 2 && !curves.by_curve(e)) return true;
+    }
+  }
+  return false;
+}
+
+// One pass over the walls, greatest radius first; true in *any if one went.
+static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
+                                Topology3* topology, bool* any) {
+  Sheet& walls = topology->walls;
+  Array<uint32_t> order(context), mark(context), wall(context);
+  TRY(mark.assign(complex.triangle_count(), k_none));
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (walls.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+  }
+  order_by_value(complex, &order);
+  *any = false;
+  for (uint32_t i = 0; i < order.size(); ++i) {
+    // A mark of this pass: the wall was looked at from a triangle of greater radius.
+    if (walls.in[order[i]] == 0 || mark[order[i]] != k_none) continue;
+    TRY(flood_patch(complex, curves, walls, order[i], i, mark.span(), &wall));
+    if (wall.size() > 1000) TRY(context.checkpoint());
+    if (!has_open_border(complex, curves, walls, wall.span())) continue;
+    begin_removal(&walls);
+    for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
+    peel_after(complex, curves, Protect::curves, &walls);
+    if (walls.bared) {
+      undo_removal(complex, &walls);
+    } else {
+      *any = true;
+    }
+  }
+  return {};
+}
+
+Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
+                            const Persistence& persistence, const TopologyOptions& options,
+                            Topology3* topology) {
+  TRY(choose_voids(context, complex, curves, persistence, options, &topology->chosen));
+  Sheet& walls = topology->walls;
+  TRY(start_sheet(complex, &walls));
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &walls);
+  }
+  for (const uint32_t v : topology->chosen) {
+    add_to_sheet(complex, persistence.voids[v].creator, &walls);
+  }
+  peel(complex, curves, Protect::curves, &walls);
+  TRY(copy_sheet(walls, &topology->closed));
+  TRY(label_rooms(complex, walls, &topology->label));
+  TRY(open_handles(context, complex, curves, topology));
+  constexpr int k_most_passes = 20;
+  bool any = !options.open_walls;
+  for (int pass = 0; any && pass < k_most_passes; ++pass) {
+    TRY(remove_open_walls(context, complex, curves, topology, &any));
+  }
+  return {};
+}
+
+}  // namespace wireskin::flow

@@ -1,0 +1,49 @@
+// The topological reconstruction: which voids there are, and the walls between them, bounded by
+// curves.
+//
+// In: the complex, its voids, the curves' edges. Out: the voids chosen, and the triangles that are
+// left after peeling, opening of handles and removal of walls that no curve bounds. Invariants: the
+// walls separate exactly the chosen voids and the outside from each other; no piece of curve that
+// had a triangle loses its last one. Method: destroyers and chosen creators, peeled from all edges
+// but the curves'; a void counts only if its wall ends on curves, which triangulations of nearly
+// round tubes feign; then triangles with the same void on both sides go, greatest radius first, as
+// far as they are not fins. O(triangles) for a void tried, near-linear else. Source: B. Sadri, K.
+// Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3 and figure 13.
+#pragma once
+
+#include "flow/persistence.h"
+#include "flow/sheet.h"
+
+namespace wireskin::flow {
+
+inline constexpr int32_t k_automatic_voids = -1;
+
+struct TopologyOptions {
+  int32_t voids = k_automatic_voids;
+  double least_ratio = 1.1;  // of a void chosen automatically
+  bool open_walls = false;   // keep walls with borders that are no curves
+};
+
+struct Topology3 {
+  Array<uint32_t> chosen;  // places in Persistence::voids
+  Sheet walls;             // the result
+  Sheet closed;            // before handles and open walls were removed
+  Array<uint32_t> label;   // of each tetrahedron, and of the outside (last): its void's root
+
+  explicit Topology3(Context& context)
+      : chosen(context), walls(context), closed(context), label(context) {}
+};
+
+// The components of the complement of a sheet: joins all tetrahedra not separated by it. The
+// outside is the last entry. Labels are least members.
+Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* label);
+
+Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
+                    const Persistence& persistence, const TopologyOptions& options,
+                    Array<uint32_t>* chosen);
+
+Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
+                            const Persistence& persistence, const TopologyOptions& options,
+                            Topology3* topology);
+
+}  // namespace wireskin::flow

@@ -1,0 +1,214 @@
+#include "surface/from_flow.h"
+
+#include "flow/crossings.h"
+#include "mesh/curvature.h"
+#include "num/minmax.h"
+#include "surface/constraints.h"
+#include "surface/finish.h"
+
+namespace wireskin {
+
+// The segment of the caller's curve that ends at a place of an arc.
+static uint32_t curve_before(const flow::Flow& flow, uint32_t i) {
+  return flow.arcs.curve[flow.samples.step[i]];
+}
+
+// Drops the vertices that neither a triangle nor a curve uses.
+static Status take_vertices(const flow::Flow& flow, const flow::FlowMesh& mesh, Surface* surface,
+                            FlowOutcome* outcome) {
+  const size_t samples = flow.samples.position.size();
+  Array<uint32_t> number(outcome->vertex_of.context());
+  TRY(number.assign(mesh.position.size(), k_none));
+  for (const uint32_t v : mesh.triangle) number[v] = 0;
+  for (const uint32_t v : flow.samples.at) number[v] = 0;
+  TRY(surface->position.reserve(mesh.position.size()));
+  uint32_t used = 0;
+  for (size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == k_none) continue;
+    number[v] = used++;
+    surface->position.push_reserved(mesh.position[v]);
+  }
+  TRY(surface->triangle.resize(mesh.triangle.size()));
+  for (size_t i = 0; i < mesh.triangle.size(); ++i) {
+    surface->triangle[i] = number[mesh.triangle[i]];
+  }
+  TRY(surface->patch.copy(mesh.patch.span()));
+  number.shrink(samples);
+  outcome->vertex_of = static_cast<Array<uint32_t>&&>(number);
+  return {};
+}
+
+static Status take_curves(const flow::Flow& flow, Span<const uint32_t> vertex_of,
+                          Surface* surface) {
+  const flow::Samples& samples = flow.samples;
+  TRY(surface->vertex_curve.assign(surface->position.size(), k_none));
+  TRY(surface->curve_edge.reserve(2 * samples.at.size()));
+  TRY(surface->curve_edge_curve.reserve(samples.at.size()));
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
+      const uint32_t curve = curve_before(flow, i + 1);
+      surface->curve_edge_curve.push_reserved(curve);
+      for (uint32_t end = 0; end < 2; ++end) {
+        const uint32_t v = vertex_of[samples.at[i + end]];
+        surface->curve_edge.push_reserved(v);
+        if (curve < surface->vertex_curve[v]) surface->vertex_curve[v] = curve;
+      }
+    }
+  }
+  Array<uint32_t> curve_of_point(surface->vertex_curve.context());
+  TRY(curve_of_point.assign(flow.arcs.vertex.size(), k_none));
+  for (uint32_t i = 0; i < flow.arcs.point.size(); ++i) {
+    curve_of_point[flow.arcs.point[i]] = flow.arcs.point_curve[i];
+  }
+  for (uint32_t s = 0; s < samples.vertex.size(); ++s) {
+    const uint32_t v = samples.vertex[s];
+    if (v == k_none || curve_of_point[v] == k_none || vertex_of[s] == k_none) continue;
+    surface->vertex_curve[vertex_of[s]] = curve_of_point[v];
+  }
+  return {};
+}
+
+// The normal given at the first sample of each vertex of the arcs.
+static Status normals_of_vertices(const flow::Flow& flow, Span<const Vec3> given,
+                                  Array<Vec3>* normal) {
+  TRY(normal->assign(flow.arcs.vertex.size(), Vec3{}));
+  for (size_t s = given.size(); s-- > 0;) (*normal)[flow.arcs.sample_vertex[s]] = given[s];
+  return {};
+}
+
+// Along arcs normals change evenly from one given sample to the next.
+static Status take_normals(const flow::Flow& flow, Span<const Vec3> given,
+                           Span<const uint32_t> vertex_of, Surface* surface) {
+  const flow::Samples& samples = flow.samples;
+  const flow::Arcs& arcs = flow.arcs;
+  Array<Vec3> normal(surface->normal.context());
+  TRY(normals_of_vertices(flow, given, &normal));
+  for (uint32_t i = 0; i < samples.at.size(); ++i) {
+    const uint32_t step = samples.step[i], p = arcs.path[step], q = arcs.path[step + 1];
+    const double whole = arcs.along[step + 1] - arcs.along[step];
+    const double share = whole > 0.0 ? (samples.along[i] - arcs.along[step]) / whole : 0.0;
+    const double clamped = smaller(larger(share, 0.0), 1.0);
+    surface->constraint_normal[vertex_of[samples.at[i]]] =
+        unit((1.0 - clamped) * normal[p] + clamped * normal[q]);
+  }
+  return {};
+}
+
+// Turns every component to the side that the given normals point to.
+static Status turn_to_normals(Context& context, const mesh::Topology& topology, Surface* surface) {
+  Array<double> agreement(context);
+  TRY(agreement.assign(topology.components, 0.0));
+  Array<uint32_t>& triangle = surface->triangle;
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    const Vec3& a = surface->position[triangle[t]];
+    const Vec3 across =
+        cross(surface->position[triangle[t + 1]] - a, surface->position[triangle[t + 2]] - a);
+    for (size_t k = 0; k < 3; ++k) {
+      agreement[topology.component[triangle[t]]] +=
+          dot(across, surface->constraint_normal[triangle[t + k]]);
+    }
+  }
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    if (agreement[topology.component[triangle[t]]] >= 0.0) continue;
+    const uint32_t second = triangle[t + 1];
+    triangle[t + 1] = triangle[t + 2];
+    triangle[t + 2] = second;
+  }
+  return {};
+}
+
+static Status smooth_flow_surface(Context& context, const mesh::Topology& topology,
+                                  smooth::Method method, Surface* surface) {
+  Array<uint8_t> constrained(context);
+  Array<mesh::TriangleShape> shapes(context);
+  Constraints constraints(context);
+  TRY(constrained.resize(surface->position.size()));
+  for (size_t v = 0; v < constrained.size(); ++v) {
+    constrained[v] = surface->vertex_curve[v] != k_none;
+    if (topology.on_border[v] != 0 && constrained[v] == 0) {
+      return fail(Code::unconstrained, "a patch has a border that is no curve");
+    }
+  }
+  TRY(mesh::triangle_shapes(surface->position.span(), surface->triangle.span(), &shapes));
+  const TriangleSet set = {surface->position.span(), surface->constraint_normal.span(),
+                           constrained.span(), surface->triangle.span(), 0.0};
+  TRY(constrain_vertices(set, surface->counts.spacing, &constraints));
+  return smooth_surface(context, {shapes.span(), smooth::Metric::space, topology.on_border.span()},
+                        constraints, method, surface);
+}
+
+// Normals and curvatures of the patches as they are.
+static Status measure_flow_surface(Context& context, const mesh::Topology& topology,
+                                   bool measurable, Surface* surface) {
+  const size_t n = surface->position.size();
+  TRY(context.enter(Stage::result));
+  TRY(surface->normal.resize(n));
+  mesh::vertex_normals(surface->position.span(), surface->triangle.span(), surface->normal.span());
+  TRY(surface->mean_curvature.assign(n, 0.0));
+  TRY(surface->gaussian_curvature.assign(n, 0.0));
+  surface->counts.least_angle =
+      mesh::least_angle(surface->position.span(), surface->triangle.span());
+  if (!measurable) return {};
+  Array<uint8_t> on_curve(context);
+  TRY(on_curve.resize(n));
+  for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
+  TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
+                           surface->triangle.span(), topology.on_border.span(),
+                           &surface->mean_curvature));
+  TRY(mesh::gaussian_curvature(surface->position.span(), surface->triangle.span(),
+                               topology.on_border.span(), &surface->gaussian_curvature));
+  return mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
+                               surface->patch.span(), on_curve.span(), true,
+                               &surface->counts.dihedral);
+}
+
+static void count_flow(const flow::Flow& flow, const flow::Reconstruction& reconstruction,
+                       const FlowSettings& settings, Surface* surface) {
+  Counts& counts = surface->counts;
+  for (const uint8_t node : flow.arcs.is_node) counts.nodes += node;
+  counts.segments = flow.arcs.size();
+  counts.patches = reconstruction.patches.size();
+  counts.vertices = static_cast<uint32_t>(surface->position.size());
+  counts.triangles = static_cast<uint32_t>(surface->patch.size());
+  counts.spacing = settings.spacing;
+  for (const uint32_t curve : surface->vertex_curve) counts.free_vertices += curve == k_none;
+}
+
+Status surface_from_flow(Context& context, const flow::Flow& flow,
+                         const flow::Reconstruction& reconstruction, const FlowSettings& settings,
+                         Surface* surface, FlowOutcome* outcome) {
+  {
+    flow::FlowMesh mesh(context);
+    TRY(flow::mesh_patches(context, flow, reconstruction, settings.spacing, &mesh));
+    outcome->held_back = mesh.held_back;
+    outcome->crossings = mesh.crossings;
+    TRY(take_vertices(flow, mesh, surface, outcome));
+  }
+  TRY(take_curves(flow, outcome->vertex_of.span(), surface));
+  TRY(surface->constraint_normal.assign(surface->position.size(), Vec3{}));
+  if (!settings.normal.empty()) {
+    TRY(take_normals(flow, settings.normal, outcome->vertex_of.span(), surface));
+  }
+  mesh::Topology topology(context);
+  const Status status = count_topology(static_cast<uint32_t>(surface->position.size()),
+                                       surface->triangle.span(), &topology, &surface->counts);
+  if (!status.ok() && status.code != Code::bad_mesh) return status;
+  outcome->manifold = status.ok() && !surface->triangle.empty();
+  count_flow(flow, reconstruction, settings, surface);
+  const bool measurable =
+      outcome->manifold &&
+      mesh::check_areas(surface->position.span(), surface->triangle.span()).ok();
+  if (!measurable || settings.normal.empty()) {
+    return measure_flow_surface(context, topology, measurable, surface);
+  }
+  TRY(turn_to_normals(context, topology, surface));
+  Array<uint32_t> pairs(context);
+  TRY(smooth_flow_surface(context, topology, settings.method, surface));
+  TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(), 1000,
+                           &pairs));
+  outcome->crossings = static_cast<uint32_t>(pairs.size() / 2);
+  outcome->smoothed = true;
+  return {};
+}
+
+}  // namespace wireskin

@@ -1,0 +1,35 @@
+// From a flow reconstruction to a surface like any other: the patches meshed, vertices that nothing
+// uses dropped, and smoothed where the curves have normals and the mesh is a manifold.
+//
+// In: a flow and a reconstruction of it, the caller's normals or none. Out: the surface with
+// patches, curve edges and the counts of the report. Curves that bound no patch stay in it as curve
+// edges. Without normals, and where more than two patches meet at a curve, the remeshed patches are
+// the result; curvatures are zero then where the mesh is no manifold.
+#pragma once
+
+#include "flow/remesh.h"
+#include "surface.h"
+
+namespace wireskin {
+
+struct FlowSettings {
+  double spacing = 0.0;  // of the result; 0: patches stay as they are
+  smooth::Method method = smooth::Method::fair;
+  Span<const Vec3> normal;  // of the caller's samples, unit; empty: none
+};
+
+struct FlowOutcome {
+  Array<uint32_t> vertex_of;  // of each sample, k_none where nothing uses it
+  uint32_t held_back = 0;
+  uint32_t crossings = 0;
+  bool manifold = false;
+  bool smoothed = false;
+
+  explicit FlowOutcome(Context& context) : vertex_of(context) {}
+};
+
+Status surface_from_flow(Context& context, const flow::Flow& flow,
+                         const flow::Reconstruction& reconstruction, const FlowSettings& settings,
+                         Surface* surface, FlowOutcome* outcome);
+
+}  // namespace wireskin
