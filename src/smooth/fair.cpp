@@ -2,6 +2,7 @@
 
 #include "mesh/care.h"
 #include "smooth/displace.h"
+#include "smooth/node_curvature.h"
 #include "smooth/system.h"
 
 namespace wireskin::smooth {
@@ -34,6 +35,13 @@ struct Guard {
         frozen(context),
         still(context),
         kept(context) {}
+};
+
+// The mean curvature on held curves, as far as it is known, and its weight.
+struct Foretold {
+  Array<double> curvature, weight;
+
+  explicit Foretold(Context& context) : curvature(context), weight(context) {}
 };
 
 }  // namespace
@@ -116,6 +124,16 @@ static Status watch(Context& context, const FairMesh& mesh, Span<const double> s
   return {};
 }
 
+static Status foretell(Context& context, const FairMesh& mesh, Span<const Vec3> curve_normal,
+                       Foretold* foretold) {
+  Array<uint8_t> given(context);
+  TRY(given.copy(mesh.held));
+  for (size_t v = 0; v < mesh.bare.size(); ++v) given[v] = given[v] && !mesh.bare[v];
+  return foretell_curvature(context,
+                            {mesh.position, curve_normal, mesh.triangle, mesh.patch, given.span()},
+                            &foretold->curvature, &foretold->weight);
+}
+
 static double mean_patch_size(const Guard& guard) {
   double sum = 0.0;
   for (double area : guard.area) sum += area;
@@ -123,8 +141,8 @@ static double mean_patch_size(const Guard& guard) {
 }
 
 static Status displacement_step(Context& context, const FairMesh& mesh, double smoothing_length,
-                                Span<const Vec3> curve_normal, MinimumVariation* solver,
-                                Guard* guard, FairReport* report) {
+                                Span<const Vec3> curve_normal, const Foretold& foretold,
+                                MinimumVariation* solver, Guard* guard, FairReport* report) {
   const size_t n = mesh.position.size();
   Array<Vec3> direction(context);
   Array<double> step(context);
@@ -134,9 +152,18 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
   report->flips += flips;
   TRY(direction.resize(n));
   TRY(step.resize(n));
-  const DisplaceInput input = {mesh.position, curve_normal, mesh.triangle,  mesh.patch,
-                               mesh.on_curve, mesh.held,    mesh.on_border, smoothing_length,
-                               mesh.soft,     mesh.bare};
+  const DisplaceInput input = {mesh.position,
+                               curve_normal,
+                               mesh.triangle,
+                               mesh.patch,
+                               mesh.on_curve,
+                               mesh.held,
+                               mesh.on_border,
+                               smoothing_length,
+                               mesh.soft,
+                               mesh.bare,
+                               foretold.curvature.span(),
+                               foretold.weight.span()};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {
@@ -157,11 +184,15 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   // Soft curves take the normals that the last step smoothed; held ones have those given.
   TRY(curve_normal.copy(mesh.normal));
   TRY(prepare_guard(mesh, patches, &guard));
+  Foretold foretold(context);
+  if (options.displacement_steps > 0) {
+    TRY(foretell(context, mesh, curve_normal.span(), &foretold));
+  }
   MinimumVariation solver(context);
   const double smoothing_length = options.smoothness * mean_patch_size(guard);
   for (int k = 0; k < options.displacement_steps; ++k) {
-    TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), &solver, &guard,
-                          report));
+    TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), foretold, &solver,
+                          &guard, report));
     double greatest = 0.0;
     for (size_t p = 0; p < guard.step.size(); ++p) {
       if (!guard.frozen[p] && guard.step[p] > greatest) greatest = guard.step[p];
