@@ -397,6 +397,8 @@ static Status make_handle(Context& context, const Surface& surface, int exponent
   const size_t patch = layout.add_array<uint32_t>(triangles);
   const size_t edges = layout.add_array<uint32_t>(surface.curve_edge.size());
   const size_t edge_curve = layout.add_array<uint32_t>(surface.curve_edge_curve.size());
+  const bool has_guard = !surface.patch_guarded.empty() && !surface.curve_edge.empty();
+  const size_t guarded = layout.add_array<uint8_t>(has_guard ? surface.patch_guarded.size() : 0);
   void* memory = nullptr;
   TRY(context.allocate(layout.bytes(), 1, &memory));
   unsigned char* block = static_cast<unsigned char*>(memory);
@@ -425,6 +427,11 @@ static Status make_handle(Context& context, const Surface& surface, int exponent
   view.triangle_patch = write_indices(block, patch, surface.patch);
   view.curve_edges = write_indices(block, edges, surface.curve_edge);
   view.curve_edge_curve = write_indices(block, edge_curve, surface.curve_edge_curve);
+  view.patch_guarded = nullptr;
+  if (has_guard) {
+    std::memcpy(block + guarded, surface.patch_guarded.data(), surface.patch_guarded.size());
+    view.patch_guarded = block + guarded;
+  }
   *out = handle;
   return context.progress(1.0);
 }
@@ -458,7 +465,7 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   }
   const CurveSet set = {storage.start.span(),  storage.position.span(), storage.normal.span(),
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
-                        storage.soft.span(),   storage.sharp.span(),   storage.right.span()};
+                        storage.soft.span(),   storage.sharp.span(),    storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
                              smoothing_of(options, scale)};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default

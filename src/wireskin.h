@@ -276,7 +276,9 @@ typedef struct wsk_report {
   uint32_t factorisations; /* Cholesky factorisations, of whatever size */
   uint32_t cg_iterations;  /* iterations of conjugate gradients with an earlier factor */
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
-  uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them */
+  uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them,
+                               or that it or that method put back to an earlier step because the
+                               last one folded them; the view's patch_guarded says which */
   double noise_position; /* standard deviation of each coordinate, estimated or given; 0 if neither */
   double noise_normal;   /* the same of the unit normals' components */
   /* Distance of all given samples from the curves of the result, in your units (wsk_build). */
@@ -411,6 +413,8 @@ typedef struct wsk_surface_view {
   const uint32_t* curve_edges;    /* 2 an edge: the curves as resampled, in their direction */
   const uint32_t*
       curve_edge_curve; /* 1 an edge: the caller's curve; both null for a caller's mesh */
+  const uint8_t* patch_guarded; /* 1 a patch: 1 where it was held back, see guarded_patches; null
+                                   for a caller's mesh and for methods that hold nothing back */
 } wsk_surface_view;
 
 /* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is

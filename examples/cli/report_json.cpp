@@ -97,7 +97,17 @@ std::string stages_json(const wsk_report& report) {
 
 }  // namespace
 
-std::string report_json(const Arguments& arguments, const wsk_report& report) {
+// The indices of the patches that were held back.
+static std::string guarded_list(const wsk_surface_view& surface) {
+  std::string list;
+  for (uint32_t p = 0; surface.patch_guarded != nullptr && p < surface.patch_count; ++p) {
+    if (surface.patch_guarded[p]) list += (list.empty() ? "" : ", ") + std::to_string(p);
+  }
+  return "[" + list + "]";
+}
+
+std::string report_json(const Arguments& arguments, const wsk_report& report,
+                        const wsk_surface_view& surface) {
   JsonObject json("");
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
@@ -128,6 +138,7 @@ std::string report_json(const Arguments& arguments, const wsk_report& report) {
   json.count("cg_iterations", report.cg_iterations);
   json.count("minimal_area_patches", report.minimal_area_patches);
   json.count("guarded_patches", report.guarded_patches);
+  json.member("guarded_patch_list", guarded_list(surface));
   json.number("noise_position", report.noise_position);
   json.number("noise_normal", report.noise_normal);
   json.number("constraint_distance_max", report.constraint_distance_max);

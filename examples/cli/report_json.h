@@ -10,7 +10,9 @@
 
 namespace wireskin_cli {
 
-std::string report_json(const Arguments& arguments, const wsk_report& report);
+// `surface`: for the list of guarded patches; an empty view where there is none.
+std::string report_json(const Arguments& arguments, const wsk_report& report,
+                        const wsk_surface_view& surface);
 
 // The text in quotes, escaped.
 std::string json_string(std::string_view text);

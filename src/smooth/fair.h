@@ -27,6 +27,7 @@ struct FairMesh {
   Soft soft;
   Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
   Span<const uint8_t> bare = {};                // held, on a border, normal not known; empty: none
+  Span<uint8_t> guarded = {};                   // out: of each patch, whether it was held back
 };
 
 struct FairOptions {

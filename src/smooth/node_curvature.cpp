@@ -5,8 +5,8 @@ namespace wireskin::smooth {
 // Parabolas through this share of an arc, and at least so many edges, give values and slopes at its
 // end. Shorter windows follow noise; arcs of fewer edges tell nothing.
 static constexpr uint32_t k_window_share = 3, k_least_window = 4;
-// A weight of one stands for a relative error of a tenth, and no error is less than .03.
-static constexpr double k_usual_error = 0.1, k_least_error = 0.03;
+// A weight of one stands for a relative error of a tenth, and no error is less than .04.
+static constexpr double k_usual_error = 0.1, k_least_error = 0.04;
 
 namespace {
 
@@ -207,7 +207,7 @@ static FormRows form_rows(const Vec3& tangent, const Vec3& normal) {
 }
 
 // Where the directions at a node lie within about 15 degrees they do not tell II apart.
-static constexpr double k_least_spread = 0.05;
+static constexpr double k_least_spread = 0.05, k_least_third_spread = 0.02;
 
 // II at every node, from all the arcs that leave it, then C: along an arc of geodesic curvature g
 // the slope of II(t, t) is C(t, t, t) + 2 g II(t, b), that of II(t, b) is C(t, t, b) + g (II(b, b)
@@ -244,7 +244,7 @@ static Status find_node_forms(Context& context, Span<const Vec3> normal, Span<co
     if (!forms[v].known) continue;
     const NodeEquations& node = equations[v];
     forms[v].error = node.size > 0.0 ? std::sqrt(node.misfit / node.size) : 0.0;
-    forms[v].known = equations[v].third.solve(forms[v].third, k_least_spread * k_least_spread);
+    forms[v].known = equations[v].third.solve(forms[v].third, k_least_third_spread);
   }
   return {};
 }
@@ -351,8 +351,11 @@ static void foretell_arc(const GivenCurves& curves, Span<const uint32_t> arc,
   const double turn2 = known.parameter.turn * known.parameter.turn;
   const double turn_error = turn2 * turn2 / 384.0;  // of a cubic for a cosine
   const double missed2 = all > 0.0 ? misfit / static_cast<double>(edges) / all : 0.0;
+  // What rests on the slopes in the middle of the arc may be wrong by a quarter.
+  const double swing = 0.25 * (known.across.from.slope - known.across.to.slope) / 8.0;
+  const double swing2 = all > 0.0 ? swing * swing / all : 0.0;
   const double error2 =
-      missed2 + turn_error * turn_error + node_error2 + k_least_error * k_least_error;
+      missed2 + turn_error * turn_error + swing2 + node_error2 + k_least_error * k_least_error;
   for (size_t k = 1; k < edges; ++k) weight[arc[k]] *= k_usual_error * k_usual_error / error2;
 }
 
