@@ -1,5 +1,6 @@
 // Keeping a moving mesh good without changing its shape: intrinsic-Delaunay edge flips in space,
-// and relaxation of free vertices within their tangent planes.
+// and relaxation of free vertices within their tangent planes. And taking out folds, which does
+// change it, there.
 //
 // In and out: positions and triangles; held vertices stay, edges between two held vertices and
 // edges of two patches are never flipped. A flip happens where the angles opposite to an edge add
