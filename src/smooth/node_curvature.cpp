@@ -83,7 +83,8 @@ struct EdgeForm {
 
 // An arc as it leaves a node, by its own tangent; slopes by length.
 struct ArcEnd {
-  uint32_t node = k_none;  // where nothing could be found
+  uint32_t node = k_none;  // the vertex; where nothing could be found, none
+  uint32_t form = k_none;  // the number of that node
   Vec3 tangent;
   ValueAndSlope along, mixed;
   double geodesic_curvature = 0.0;
@@ -219,19 +220,19 @@ static Status find_node_forms(Context& context, Span<const Vec3> normal, Span<co
   for (const ArcEnd& end : ends) {
     if (end.node == k_none) continue;
     const FormRows rows = form_rows(end.tangent, normal[end.node]);
-    equations[end.node].second.add(rows.second[0], end.along.value);
-    equations[end.node].second.add(rows.second[1], end.mixed.value);
+    equations[end.form].second.add(rows.second[0], end.along.value);
+    equations[end.form].second.add(rows.second[1], end.mixed.value);
   }
   for (size_t v = 0; v < forms.size(); ++v) {
     forms[v].known = equations[v].second.solve(forms[v].second, k_least_spread);
   }
   for (const ArcEnd& end : ends) {
-    if (end.node == k_none || !forms[end.node].known) continue;
-    NodeEquations& node = equations[end.node];
+    if (end.node == k_none || !forms[end.form].known) continue;
+    NodeEquations& node = equations[end.form];
     const FormRows rows = form_rows(end.tangent, normal[end.node]);
     double form[3];
     for (int i = 0; i < 3; ++i) {
-      form[i] = sum_of_products(rows.second[i], forms[end.node].second, 3);
+      form[i] = sum_of_products(rows.second[i], forms[end.form].second, 3);
     }
     const double off = end.along.value - form[0], off_mixed = end.mixed.value - form[1];
     node.misfit += off * off + off_mixed * off_mixed;
@@ -359,6 +360,19 @@ static void foretell_arc(const GivenCurves& curves, Span<const uint32_t> arc,
   for (size_t k = 1; k < edges; ++k) weight[arc[k]] *= k_usual_error * k_usual_error / error2;
 }
 
+// Gives the nodes that arcs leave numbers of their own: they are few among the vertices.
+static Status number_nodes(Context& context, size_t vertices, Span<ArcEnd> ends, uint32_t* count) {
+  Array<uint32_t> number(context);
+  TRY(number.assign(vertices, k_none));
+  *count = 0;
+  for (ArcEnd& end : ends) {
+    if (end.node == k_none) continue;
+    if (number[end.node] == k_none) number[end.node] = (*count)++;
+    end.form = number[end.node];
+  }
+  return {};
+}
+
 Status foretell_curvature(Context& context, const GivenCurves& curves, Array<double>* curvature,
                           Array<double>* weight) {
   const size_t n = curves.position.size();
@@ -369,15 +383,17 @@ Status foretell_curvature(Context& context, const GivenCurves& curves, Array<dou
   TRY(weight->assign(n, 0.0));
   TRY(find_arcs(context, curves, k_least_window, &arcs));
   TRY(ends.resize(size_t{2} * arcs.count()));
-  TRY(forms.resize(n));
   for (uint32_t a = 0; a < arcs.count(); ++a) {
     ends[2 * a] = leave_node(curves, arcs.arc(a), false);
     ends[2 * a + 1] = leave_node(curves, arcs.arc(a), true);
     if (a % 1024 == 1023) TRY(context.checkpoint());
   }
+  uint32_t nodes = 0;
+  TRY(number_nodes(context, n, ends.span(), &nodes));
+  TRY(forms.resize(nodes));
   TRY(find_node_forms(context, curves.normal, ends.span(), forms.span()));
   for (uint32_t a = 0; a < arcs.count(); ++a) {
-    const uint32_t first = ends[2 * a].node, last = ends[2 * a + 1].node;
+    const uint32_t first = ends[2 * a].form, last = ends[2 * a + 1].form;
     if (first == k_none || last == k_none || !forms[first].known || !forms[last].known) continue;
     const NodeForm* const of_ends[2] = {&forms[first], &forms[last]};
     const double node_error2 =
