@@ -69,7 +69,7 @@ std::vector<Case> cases_with_bounds() {
                  0.008, 0.0056),
       torus_case("torus 4 x 4", 4, 2, k_quarters, k_quarters, 0.12, 6e-4, 3.9e-4),
       network_case("bumpy sphere", bumpy_surface(), 0.0253, bumpy_sphere, 0.004, 0.0032),
-      ellipsoid_case("ellipsoid 1.5, 1, .7", 1.5, 1.0, 0.7, 0.0042, 0.0041),
+      ellipsoid_case("ellipsoid 1.5, 1, .7", 1.5, 1.0, 0.7, 0.0024, 0.0041),
       network_case("saddle, open border", saddle_surface(), 0.02, saddle, 4e-5, 2.6e-5),
       band_case("cylinder band", cylinder_surface(1.0), 0.6, 0.0, 1e-5, 2.5e-6),
       zone_case("sphere zone hh = 1", 1.0, 2e-4, 1.1e-4),
