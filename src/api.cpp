@@ -338,6 +338,8 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   const size_t patch = layout.add_array<uint32_t>(triangles);
   const size_t edges = layout.add_array<uint32_t>(surface.curve_edge.size());
   const size_t edge_curve = layout.add_array<uint32_t>(surface.curve_edge_curve.size());
+  const bool has_guard = !surface.patch_guarded.empty() && !surface.curve_edge.empty();
+  const size_t guarded = layout.add_array<uint8_t>(has_guard ? surface.patch_guarded.size() : 0);
   void* memory = nullptr;
   TRY(context.allocate(layout.bytes(), 1, &memory));
   unsigned char* block = static_cast<unsigned char*>(memory);
@@ -366,6 +368,11 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   view.triangle_patch = write_indices(block, patch, surface.patch);
   view.curve_edges = write_indices(block, edges, surface.curve_edge);
   view.curve_edge_curve = write_indices(block, edge_curve, surface.curve_edge_curve);
+  view.patch_guarded = nullptr;
+  if (has_guard) {
+    std::memcpy(block + guarded, surface.patch_guarded.data(), surface.patch_guarded.size());
+    view.patch_guarded = block + guarded;
+  }
   *out = handle;
   return context.progress(1.0);
 }

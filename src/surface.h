@@ -72,6 +72,7 @@ struct Surface {
   Array<uint32_t> patch;       // of each triangle
   Array<uint32_t> curve_edge;  // two vertices each
   Array<uint32_t> curve_edge_curve;
+  Array<uint8_t> patch_guarded;  // of each patch; empty where the method has no guard
 
   explicit Surface(Context& context)
       : position(context),
@@ -83,7 +84,8 @@ struct Surface {
         triangle(context),
         patch(context),
         curve_edge(context),
-        curve_edge_curve(context) {}
+        curve_edge_curve(context),
+        patch_guarded(context) {}
 };
 
 Status surface_curves(Context& context, const CurveSet& curves, const Settings& settings,

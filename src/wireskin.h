@@ -294,7 +294,9 @@ typedef struct wsk_report {
   uint32_t factorisations;       /* Cholesky factorisations, of whatever size */
   uint32_t cg_iterations;        /* iterations of conjugate gradients with an earlier factor */
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
-  uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them */
+  uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them,
+                               or that it or that method put back to an earlier step because the
+                               last one folded them; the view's patch_guarded says which */
   double
       noise_position;  /* standard deviation of each coordinate, estimated or given; 0 if neither */
   double noise_normal; /* the same of the unit normals' components */
@@ -430,7 +432,9 @@ typedef struct wsk_surface_view {
   const uint32_t* triangle_patch;   /* 1 a triangle */
   const uint32_t* curve_edges;      /* 2 an edge: the curves as resampled, in their direction */
   const uint32_t*
-      curve_edge_curve; /* 1 an edge: the caller's curve; both null for a caller's mesh */
+      curve_edge_curve;         /* 1 an edge: the caller's curve; both null for a caller's mesh */
+  const uint8_t* patch_guarded; /* 1 a patch: 1 where it was held back, see guarded_patches; null
+                                   for a caller's mesh and for methods that hold nothing back */
 } wsk_surface_view;
 
 /* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is
@@ -542,14 +546,14 @@ typedef struct wsk_network_view {
  *
  * Samples with the same node number are one point, as for wsk_build, and so are samples at exactly
  * the same place. Fragments become curves through points at which two ends meet, unless there is a
- * corner; closed curves are recognised. Then curves that come nearer to each other than options.snap
- * are joined, nearest first: ends to ends, ends to the inside of curves, and the insides of curves of
- * different components. Insides of one component are joined only where they cross: at a quarter of
- * the tolerance, or at a hundredth where the network is one component without dangling ends
- * already. Places that the network connects within four tolerances are left alone (loose ends:
- * within four times their distance). Existing nodes stay where they are and the curves that come to
- * them bend smoothly; an end comes to the inside of a curve; ends meet in the middle, and so do
- * insides. A joint between samples becomes a sample.
+ * corner; closed curves are recognised. Then curves that come nearer to each other than
+ * options.snap are joined, nearest first: ends to ends, ends to the inside of curves, and the
+ * insides of curves of different components. Insides of one component are joined only where they
+ * cross: at a quarter of the tolerance, or at a hundredth where the network is one component
+ * without dangling ends already. Places that the network connects within four tolerances are left
+ * alone (loose ends: within four times their distance). Existing nodes stay where they are and the
+ * curves that come to them bend smoothly; an end comes to the inside of a curve; ends meet in the
+ * middle, and so do insides. A joint between samples becomes a sample.
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other
@@ -580,7 +584,8 @@ typedef struct wsk_sensor_curve {
   int32_t closed;
   int32_t boundary;
   /* Non-zero: each tangent is the direction from its sample to the next, as in Stanko's .rawnet
-     files, and steps are straight. Zero: the direction at its sample, and steps are circular arcs. */
+     files, and steps are straight. Zero: the direction at its sample, and steps are circular arcs.
+   */
   int32_t tangents_to_next;
 } wsk_sensor_curve;
 
@@ -696,10 +701,11 @@ typedef struct wsk_flow_view {
 
   uint32_t sample_count;
   uint32_t tetrahedron_count;
-  uint32_t critical_count[4]; /* points, saddles of index 1 and 2, maxima: their alternating sum is 1 */
-  uint32_t split_count;       /* segments halved because a sample came too near */
-  uint32_t crowded_count;     /* segments that should have been, but were too short already */
-  uint32_t missing_count;     /* segments without an edge in the complex: none in sound input */
+  uint32_t
+      critical_count[4];  /* points, saddles of index 1 and 2, maxima: their alternating sum is 1 */
+  uint32_t split_count;   /* segments halved because a sample came too near */
+  uint32_t crowded_count; /* segments that should have been, but were too short already */
+  uint32_t missing_count; /* segments without an edge in the complex: none in sound input */
   uint32_t void_count;
   const wsk_void* voids; /* by falling ratio */
 
@@ -707,27 +713,28 @@ typedef struct wsk_flow_view {
   uint32_t betti[3]; /* components, handles and loops, voids: of surface and curves together */
   uint32_t patch_count;
   uint32_t open_patch_count;
-  uint32_t bare_count;     /* segments of curve at which no patch lies */
-  uint32_t branch_count;   /* edges of more than two triangles before remeshing */
-  uint32_t held_count;     /* patches that remeshing spared because they would have crossed others */
+  uint32_t bare_count;   /* segments of curve at which no patch lies */
+  uint32_t branch_count; /* edges of more than two triangles before remeshing */
+  uint32_t held_count;   /* patches that remeshing spared because they would have crossed others */
   uint32_t crossing_count; /* pairs of triangles that cross: none unless smoothing made them */
-  int32_t manifold;        /* non-zero: every edge has at most two triangles, every vertex one fan */
-  int32_t smoothed;        /* non-zero: the normals of the curves shaped it */
+  int32_t manifold; /* non-zero: every edge has at most two triangles, every vertex one fan */
+  int32_t smoothed; /* non-zero: the normals of the curves shaped it */
   const wsk_flow_patch* patches;
   uint32_t loop_count;
   const uint32_t* loop_first; /* loop l has the runs loop_first[l] .. loop_first[l + 1] */
   const wsk_flow_run* runs;
-  uint32_t arc_count; /* stretches of curve between junctions and corners */
-  const uint32_t* arc_first; /* arc_count + 1 */
-  const uint32_t* arc_vertices; /* vertices of the surface; a closed arc repeats its first */
+  uint32_t arc_count;            /* stretches of curve between junctions and corners */
+  const uint32_t* arc_first;     /* arc_count + 1 */
+  const uint32_t* arc_vertices;  /* vertices of the surface; a closed arc repeats its first */
   const uint32_t* bare_vertices; /* two for each bare segment */
 } wsk_flow_view;
 
 /* Samples the curves and finds the voids. Curves join where samples carry the same node number or
  * coincide; curves of one sample are points. Normals are not needed: null, or given for all curves,
- * and then they shape the surface. A curve's boundary, soft and sharp are not read, but sharp curves
- * count as having no normals. `options` and `flow_options` may be null (defaults). On success *flow is
- * to be given to wsk_flow_free; it keeps the allocator of the options, not the callbacks. */
+ * and then they shape the surface. A curve's boundary, soft and sharp are not read, but sharp
+ * curves count as having no normals. `options` and `flow_options` may be null (defaults). On
+ * success *flow is to be given to wsk_flow_free; it keeps the allocator of the options, not the
+ * callbacks. */
 wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk_options* options,
                           const wsk_flow_options* flow_options, wsk_flow** flow,
                           wsk_report* report);

@@ -22,6 +22,15 @@
 
 namespace wireskin_cli {
 
+static std::string report_of(const Arguments& arguments, const BuildResult& result,
+                             size_t line = 0) {
+  wsk_surface_view surface;
+  wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
+  const wsk_network_view prepared = result.prepared_view();
+  return report_json({arguments, result.report, &surface,
+                      result.prepared == nullptr ? nullptr : &prepared, result.flow.get(), line});
+}
+
 // The report of what failed. What went wrong there is said before what goes wrong here.
 static void write_failure_report(const Arguments& arguments, const std::string& json,
                                  const std::string& line) {
@@ -53,7 +62,7 @@ static void write_outputs(const Arguments& arguments, const wsk_surface_view& su
   if (!arguments.image.empty()) {
     files.add(arguments.image, png_bytes(draw_picture(surface, arguments.up_axis)));
   }
-  const std::string json = report_json(arguments, result);
+  const std::string json = report_of(arguments, result);
   if (!arguments.report.empty()) files.add(arguments.report, json);
   if (!arguments.html.empty()) {
     const std::string title = std::filesystem::path(arguments.input).filename().string();
@@ -83,7 +92,7 @@ static void run(const Arguments& arguments) {
     const std::string line = failure_line(arguments.input, network, result.report) +
                              failure_hint(arguments, network, result.report);
     const size_t place = line_of(network, result.report);
-    write_failure_report(arguments, report_json(arguments, result, place), line);
+    write_failure_report(arguments, report_of(arguments, result, place), line);
     throw Failure(line);
   }
   wsk_surface_view surface;

@@ -198,17 +198,26 @@ std::string flow_json(const FlowSummary& flow) {
   return object.close();
 }
 
+// The indices of the patches that were held back.
+std::string guarded_list(const wsk_surface_view* surface) {
+  std::string list;
+  const bool known = surface != nullptr && surface->patch_guarded != nullptr;
+  for (uint32_t p = 0; known && p < surface->patch_count; ++p) {
+    if (surface->patch_guarded[p]) list += (list.empty() ? "" : ", ") + std::to_string(p);
+  }
+  return "[" + list + "]";
+}
+
 // What the command itself knows stands beside the report.
 struct Outcome {
   const char* status;
   const char* stage;
   std::string sentence;  // "" for none
-  size_t line;
 };
 
-std::string outcome_json(const Arguments& arguments, const BuildResult& result,
-                         const Outcome& outcome) {
-  const wsk_report& report = result.report;
+std::string outcome_json(const ReportInput& input, const Outcome& outcome) {
+  const Arguments& arguments = input.arguments;
+  const wsk_report& report = input.report;
   JsonObject json("");
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
@@ -217,7 +226,7 @@ std::string outcome_json(const Arguments& arguments, const BuildResult& result,
   json.text("status", outcome.status);
   json.text("stage", outcome.stage);
   json.member("sentence", outcome.sentence.empty() ? "null" : json_string(outcome.sentence));
-  json.member("place", place_json(report, outcome.line));
+  json.member("place", place_json(report, input.line));
   json.count("curves", report.curves);
   json.count("nodes", report.nodes);
   json.count("segments", report.segments);
@@ -235,6 +244,7 @@ std::string outcome_json(const Arguments& arguments, const BuildResult& result,
   json.count("cg_iterations", report.cg_iterations);
   json.count("minimal_area_patches", report.minimal_area_patches);
   json.count("guarded_patches", report.guarded_patches);
+  json.member("guarded_patch_list", guarded_list(input.surface));
   json.number("noise_position", report.noise_position);
   json.number("noise_normal", report.noise_normal);
   json.number("constraint_distance_max", report.constraint_distance_max);
@@ -246,28 +256,25 @@ std::string outcome_json(const Arguments& arguments, const BuildResult& result,
   json.count("peak_bytes", static_cast<long long>(report.peak_bytes));
   json.member("stage_ms", stages_json(report));
   json.number("total_ms", report.total_ms);
-  if (result.prepared != nullptr) {
-    json.member("preparation", preparation_json(result.prepared_view()));
-  }
-  if (result.flow != nullptr) json.member("flow", flow_json(*result.flow));
+  if (input.prepared != nullptr) json.member("preparation", preparation_json(*input.prepared));
+  if (input.flow != nullptr) json.member("flow", flow_json(*input.flow));
   return json.close() + "\n";
 }
 
 }  // namespace
 
-std::string report_json(const Arguments& arguments, const BuildResult& result, size_t line) {
-  const wsk_report& report = result.report;
+std::string report_json(const ReportInput& input) {
+  const wsk_report& report = input.report;
   const bool silent = report.status == WSK_OK || report.sentence == nullptr;
-  return outcome_json(arguments, result,
-                      {wsk_status_name(report.status), wsk_stage_name(report.stage),
-                       silent ? "" : report.sentence, line});
+  return outcome_json(input, {wsk_status_name(report.status), wsk_stage_name(report.stage),
+                              silent ? "" : report.sentence});
 }
 
 std::string read_failure_json(const Arguments& arguments, const ReadFailure& failure) {
-  BuildResult nothing;
-  wsk_report_init(&nothing.report, sizeof nothing.report);
-  return outcome_json(arguments, nothing,
-                      {failure.status(), "reading", failure.sentence(), failure.line()});
+  wsk_report report;
+  wsk_report_init(&report, sizeof report);
+  return outcome_json({arguments, report, nullptr, nullptr, nullptr, failure.line()},
+                      {failure.status(), "reading", failure.sentence()});
 }
 
 }  // namespace wireskin_cli

@@ -11,8 +11,17 @@
 
 namespace wireskin_cli {
 
-// `line` of the input that the place of the report speaks of; 0 if there is none.
-std::string report_json(const Arguments& arguments, const BuildResult& result, size_t line = 0);
+// What is known; null pointers for what there is not.
+struct ReportInput {
+  const Arguments& arguments;
+  const wsk_report& report;
+  const wsk_surface_view* surface = nullptr;
+  const wsk_network_view* prepared = nullptr;
+  const FlowSummary* flow = nullptr;
+  size_t line = 0;  // of the input, that the place of the report speaks of
+};
+
+std::string report_json(const ReportInput& input);
 
 // The same members for an input that could not be read: all counts are zero, the status is one of
 // those of ReadFailure.

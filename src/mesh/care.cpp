@@ -6,6 +6,7 @@ namespace wireskin::mesh {
 
 static constexpr int k_relax_sweeps = 5;
 static constexpr int k_flip_sweeps = 6;
+static constexpr uint32_t k_unfold_sweeps = 40, k_sweeps_a_ring = 5;
 
 namespace {
 
@@ -113,6 +114,139 @@ static void flip(Span<uint32_t> triangle, Span<uint32_t> twins, uint32_t h) {
   }
   twins[t + 1] = s + 2;
   twins[s + 2] = t + 1;
+}
+
+static Vec3 facing_of(const Movable& mesh, uint32_t t) {
+  const uint32_t* v = &mesh.triangle[size_t{3} * t];
+  const Vec3& a = mesh.position[v[0]];
+  return cross(mesh.position[v[1]] - a, mesh.position[v[2]] - a);
+}
+
+// Whether the two triangles at half-edge h face against each other, in one patch, at an edge that
+// is not between held vertices.
+static bool is_fold(const Movable& mesh, Span<const uint32_t> twins, uint32_t h) {
+  const uint32_t g = twins[h];
+  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return false;
+  if (mesh.held[mesh.triangle[h]] && mesh.held[mesh.triangle[g]]) return false;
+  return dot(facing_of(mesh, h / 3), facing_of(mesh, g / 3)) < 0.0;
+}
+
+// How much the surface turns between two facings, so that a turn shared by two edges costs less.
+static double turn_between(const Vec3& a, const Vec3& b) {
+  const double turn = 1.0 - dot(unit(a), unit(b));
+  return turn * turn;
+}
+
+// The turn between a facing at half-edge h and the triangle beyond, none at the rim of the patch.
+static double turn_beyond(const Movable& mesh, Span<const uint32_t> twins, uint32_t h,
+                          const Vec3& facing) {
+  const uint32_t g = twins[h];
+  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return 0.0;
+  if (mesh.held[mesh.triangle[h]] && mesh.held[mesh.triangle[g]]) return 0.0;
+  return turn_between(facing, facing_of(mesh, g / 3));
+}
+
+// Flips an edge if the surface then turns less at it and at the four round it.
+static bool flip_to_turn_less(const Movable& mesh, Span<uint32_t> twins, uint32_t h) {
+  const uint32_t g = twins[h];
+  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return false;
+  const Quad q = quad_at(mesh.triangle, h, g);
+  if ((mesh.held[q.a] && mesh.held[q.b]) || (mesh.held[q.c] && mesh.held[q.d])) return false;
+  if (has_edge(mesh.triangle, twins, previous_half_edge(h), q.d)) return false;
+  const Vec3 &a = mesh.position[q.a], &b = mesh.position[q.b];
+  const Vec3 &c = mesh.position[q.c], &d = mesh.position[q.d];
+  const Vec3 abc = cross(b - a, c - a), bad = cross(a - b, d - b);
+  const Vec3 adc = cross(d - a, c - a), dbc = cross(b - d, c - d);
+  const uint32_t ad = next_half_edge(g), db = previous_half_edge(g), bc = next_half_edge(h),
+                 ca = previous_half_edge(h);
+  const auto beyond = [&](uint32_t edge, const Vec3& facing) {
+    return turn_beyond(mesh, twins, edge, facing);
+  };
+  const double before = turn_between(abc, bad) + beyond(ad, bad) + beyond(db, bad) +
+                        beyond(bc, abc) + beyond(ca, abc);
+  const double after = turn_between(adc, dbc) + beyond(ad, adc) + beyond(ca, adc) +
+                       beyond(db, dbc) + beyond(bc, dbc);
+  if (!(after < 0.99 * before)) return false;
+  flip(mesh.triangle, twins, h);
+  return true;
+}
+
+// Flips the edge of a fold or one of the four round it: where a curve makes a hairpin the surface
+// has to turn round its tip, and does so in steps if more edges end there.
+static void flip_at_fold(const Movable& mesh, Span<uint32_t> twins, uint32_t h) {
+  if (flip_to_turn_less(mesh, twins, h)) return;
+  const uint32_t g = twins[h];
+  const uint32_t round[4] = {next_half_edge(h), previous_half_edge(h), next_half_edge(g),
+                             previous_half_edge(g)};
+  for (uint32_t edge : round) {
+    if (flip_to_turn_less(mesh, twins, edge)) return;
+  }
+}
+
+// Marks the free vertices round the folds, and those `rings` further out in the same patch.
+static void mark_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds,
+                       uint32_t rings, Span<uint8_t> marked) {
+  for (uint8_t& m : marked) m = 0;
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (!is_fold(mesh, twins, h)) continue;
+    for (uint32_t k = 0; k < 3; ++k) marked[mesh.triangle[h / 3 * 3 + k]] = 1;
+  }
+  for (uint32_t ring = 1; ring <= rings; ++ring) {
+    for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+      if (folds[mesh.patch[h / 3]] == 0 || marked[mesh.triangle[h]] != ring) continue;
+      for (size_t k = 0; k < 3; ++k) {
+        uint8_t& m = marked[mesh.triangle[h / 3 * 3 + k]];
+        if (m == 0) m = static_cast<uint8_t>(ring + 1);
+      }
+    }
+  }
+}
+
+static void smooth_marked(const Movable& mesh, Span<const uint8_t> marked, Span<Pull> pull) {
+  for (Pull& p : pull) p = {Vec3{}, 0.0};
+  for (uint32_t h = 0; h < mesh.triangle.size(); ++h) {
+    // A free vertex has a triangle on each side of its edges, so this meets each neighbour once.
+    const uint32_t a = mesh.triangle[h], b = mesh.triangle[next_half_edge(h)];
+    pull[a].sum += mesh.position[b];
+    pull[a].area += 1.0;
+  }
+  for (size_t v = 0; v < pull.size(); ++v) {
+    if (!marked[v] || mesh.held[v]) continue;
+    const Vec3 mean = (1.0 / pull[v].area) * pull[v].sum;
+    mesh.position[v] += 0.5 * (mean - mesh.position[v]);
+  }
+}
+
+static uint32_t count_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds) {
+  uint32_t all = 0;
+  for (uint32_t& f : folds) f = 0;
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] < h || !is_fold(mesh, twins, h)) continue;
+    ++folds[mesh.patch[h / 3]];
+    ++all;
+  }
+  return all;
+}
+
+Status unfold(Context& context, const Movable& mesh, Span<uint32_t> folds) {
+  Array<uint32_t> twins(context);
+  Array<uint8_t> marked(context);
+  Array<Pull> pull(context);
+  TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
+  if (count_folds(mesh, twins.span(), folds) == 0) return {};
+  TRY(marked.resize(mesh.position.size()));
+  TRY(pull.resize(mesh.position.size()));
+  for (uint32_t sweep = 0; sweep < k_unfold_sweeps; ++sweep) {
+    for (uint32_t h = 0; h < twins.size(); ++h) {
+      if (twins[h] > h && is_fold(mesh, twins.span(), h)) flip_at_fold(mesh, twins.span(), h);
+    }
+    if (count_folds(mesh, twins.span(), folds) == 0) break;
+    mark_folds(mesh, twins.span(), folds, sweep / k_sweeps_a_ring, marked.span());
+    smooth_marked(mesh, marked.span(), pull.span());
+    TRY(context.checkpoint());
+  }
+  count_folds(mesh, twins.span(), folds);
+  return {};
 }
 
 Status care(Context& context, const Movable& mesh, uint32_t* flips) {

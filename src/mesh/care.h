@@ -1,5 +1,6 @@
 // Keeping a moving mesh good without changing its shape: intrinsic-Delaunay edge flips in space,
-// and relaxation of free vertices within their tangent planes.
+// and relaxation of free vertices within their tangent planes. And taking out folds, which does
+// change it, there.
 //
 // In and out: positions and triangles; held vertices stay, edges between two held vertices and
 // edges of two patches are never flipped. A flip happens where the angles opposite to an edge add
@@ -20,6 +21,12 @@ struct Movable {
   Span<const uint32_t> patch;  // of each triangle
   Span<const uint8_t> held;    // of each vertex
 };
+
+// Takes out folds: edges inside a patch, not between held vertices, whose two triangles face
+// against each other. Edges there are flipped where the surface then turns less, and the free
+// vertices round a fold, in a wider ring the longer it lasts, move half the way to the mean of
+// their neighbours. `folds`: how many are left, by patch. Patches without folds stay as they are.
+Status unfold(Context& context, const Movable& mesh, Span<uint32_t> folds);
 
 // Relax, flip, relax. `flips`: how many edges were flipped.
 Status care(Context& context, const Movable& mesh, uint32_t* flips);

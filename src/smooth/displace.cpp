@@ -131,15 +131,16 @@ static void sort_column(size_t first, sparse::Csc* matrix) {
 }
 
 // The matrix of the least squares problem: first the rows of the split mesh, then one row a vertex
-// for the Laplacian of h, then one a vertex for the springs. Columns are the unknowns, u and h of a
-// vertex next to each other.
+// for the Laplacian of h, then one a vertex for the springs and one for the curvature foretold.
+// Columns are the unknowns, u and h of a vertex next to each other.
 Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
                                    Span<const double> split_area, Span<const uint32_t> origin,
                                    const sparse::Csc& laplacian, sparse::Csc* rows) const {
   const uint32_t n = laplacian.cols, split = split_laplacian.cols;
-  rows->rows = split + 2 * n;
+  rows->rows = split + 3 * n;
   rows->cols = unknowns_;
-  const size_t most = split_laplacian.row.size() + laplacian.row.size() + size_t{split} + size_t{n};
+  const size_t most =
+      split_laplacian.row.size() + laplacian.row.size() + size_t{split} + 2 * size_t{n};
   if (most >= k_none) return fail(Code::too_large, "the mesh is too large for 32-bit indices");
   TRY(rows->start.resize(size_t{unknowns_} + 1));
   TRY(rows->row.reserve(most));
@@ -169,6 +170,7 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
     for (uint32_t p = laplacian.start[v]; p < laplacian.start[v + 1]; ++p) {
       add(split + laplacian.row[p], laplacian.value[p]);
     }
+    add(split + 2 * n + v, 1.0);
     first_copy = end_copy;
   }
   rows->start[column] = static_cast<uint32_t>(rows->row.size());
@@ -202,6 +204,9 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
     weight[r] =
         pulled ? length2 * length2 * spring(input.soft.share[v], input.soft.cutoff[v], 4) : 0.0;
     target[r] = pulled ? dot(input.soft.position[v] - input.position[v], normal[v]) : 0.0;
+    const bool foretold = !input.foretold_weight.empty();
+    weight[r + n] = foretold ? input.smoothing_length * input.foretold_weight[v] : 0.0;
+    target[r + n] = foretold ? input.foretold_curvature[v] : 0.0;
   }
 }
 

@@ -7,7 +7,8 @@
 // the displaced positions is asked to be -2 m h n, and h to have the least square Laplacian:
 //   sum_r (g_r - (L u)_r - 2 m_r h_i(r))^2 / m_r + (c l)^4 h^T (Ls M^-1 Ls) h,
 //   g_r = -<(L v)_r + c_r, n_i(r)>,
-// where c_r is the conormal of the patch's rim, made from the curve's positions and the given
+// and, where the curves foretell H on them (node_curvature.h), c l w (h - H)^2 more. There c_r is
+// the conormal of the patch's rim, made from the curve's positions and the given
 // normals: that is how these normals enter. Split rows are essential, merged ones never see them.
 // On open borders the rows of the last term are left out. Where a border's normal is not known it
 // has no conormal: there the row of the last term stays, as the natural condition, and the first
@@ -34,6 +35,8 @@ struct DisplaceInput {
   double smoothing_length = 0.0;  // c l above
   Soft soft = {};                 // adds (c l)^4 share / cutoff^7 (u - <a - v, n>)^2
   Span<const uint8_t> bare = {};  // held, on a border, normal not known; empty: none
+  // Mean curvature as the nodes foretell it, and its weight, a length; empty: none.
+  Span<const double> foretold_curvature = {}, foretold_weight = {};
 
   bool is_bare(uint32_t v) const { return !bare.empty() && bare[v]; }
 };

@@ -2,6 +2,7 @@
 
 #include "mesh/care.h"
 #include "smooth/displace.h"
+#include "smooth/node_curvature.h"
 #include "smooth/system.h"
 
 namespace wireskin::smooth {
@@ -36,7 +37,63 @@ struct Guard {
         kept(context) {}
 };
 
+// Of each patch, the last state without folds, if there was one.
+struct Unfolded {
+  Array<Vec3> position;
+  Array<uint32_t> triangle;
+  Array<uint32_t> folds;  // of each patch, now
+  Array<uint8_t> known;   // patch
+
+  explicit Unfolded(Context& context)
+      : position(context), triangle(context), folds(context), known(context) {}
+};
+
+// The mean curvature on held curves, as far as it is known, and its weight.
+struct Foretold {
+  Array<double> curvature, weight;
+
+  explicit Foretold(Context& context) : curvature(context), weight(context) {}
+};
+
 }  // namespace
+
+static Span<const uint8_t> kept_vertices(const FairMesh& mesh, const Guard& guard) {
+  return guard.kept.empty() ? mesh.on_curve : guard.kept.span();
+}
+
+static void hold_back(const FairMesh& mesh, uint32_t patch, FairReport* report) {
+  if (mesh.guarded[patch]) return;
+  mesh.guarded[patch] = 1;
+  ++report->guarded_patches;
+}
+
+// Takes folds out of what the last stage gave, and remembers the patches that have none.
+static Status unfold(Context& context, const FairMesh& mesh, const Guard& guard, Unfolded* safe) {
+  TRY(mesh::unfold(context, {mesh.position, mesh.triangle, mesh.patch, kept_vertices(mesh, guard)},
+                   safe->folds.span()));
+  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+    const uint32_t v = mesh.triangle[h], p = mesh.patch[h / 3];
+    if (safe->folds[p] > 0) continue;
+    safe->triangle[h] = v;
+    safe->position[v] = mesh.position[v];
+    safe->known[p] = 1;
+  }
+  return {};
+}
+
+// Patches that end with folds go back to the last state that had none.
+static void put_back_folded(const FairMesh& mesh, const Unfolded& safe, FairReport* report) {
+  for (uint32_t p = 0; p < safe.folds.size(); ++p) {
+    if (safe.folds[p] == 0 || !safe.known[p]) continue;
+    for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+      if (mesh.patch[h / 3] != p) continue;
+      const uint32_t v = safe.triangle[h];
+      mesh.triangle[h] = v;
+      if (!mesh.on_curve[v]) mesh.position[v] = safe.position[v];
+    }
+    hold_back(mesh, p, report);
+  }
+}
 
 static Status harmonic_start(Context& context, const FairMesh& mesh, double* residual) {
   TRY(context.enter(Stage::operators));
@@ -111,9 +168,19 @@ static Status watch(Context& context, const FairMesh& mesh, Span<const double> s
     guard->step[p] = share;
     if (share <= k_greatest_step && !grows) continue;
     freeze(mesh, p, guard);
-    ++report->guarded_patches;
+    hold_back(mesh, p, report);
   }
   return {};
+}
+
+static Status foretell(Context& context, const FairMesh& mesh, Span<const Vec3> curve_normal,
+                       Foretold* foretold) {
+  Array<uint8_t> given(context);
+  TRY(given.copy(mesh.held));
+  for (size_t v = 0; v < mesh.bare.size(); ++v) given[v] = given[v] && !mesh.bare[v];
+  return foretell_curvature(context,
+                            {mesh.position, curve_normal, mesh.triangle, mesh.patch, given.span()},
+                            &foretold->curvature, &foretold->weight);
 }
 
 static double mean_patch_size(const Guard& guard) {
@@ -123,8 +190,8 @@ static double mean_patch_size(const Guard& guard) {
 }
 
 static Status displacement_step(Context& context, const FairMesh& mesh, double smoothing_length,
-                                Span<const Vec3> curve_normal, MinimumVariation* solver,
-                                Guard* guard, FairReport* report) {
+                                Span<const Vec3> curve_normal, const Foretold& foretold,
+                                MinimumVariation* solver, Guard* guard, FairReport* report) {
   const size_t n = mesh.position.size();
   Array<Vec3> direction(context);
   Array<double> step(context);
@@ -134,9 +201,18 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
   report->flips += flips;
   TRY(direction.resize(n));
   TRY(step.resize(n));
-  const DisplaceInput input = {mesh.position, curve_normal, mesh.triangle,  mesh.patch,
-                               mesh.on_curve, mesh.held,    mesh.on_border, smoothing_length,
-                               mesh.soft,     mesh.bare};
+  const DisplaceInput input = {mesh.position,
+                               curve_normal,
+                               mesh.triangle,
+                               mesh.patch,
+                               mesh.on_curve,
+                               mesh.held,
+                               mesh.on_border,
+                               smoothing_length,
+                               mesh.soft,
+                               mesh.bare,
+                               foretold.curvature.span(),
+                               foretold.weight.span()};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {
@@ -150,24 +226,37 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   Array<mesh::TriangleShape> shapes(context);
   Array<Vec3> curve_normal(context);
   Guard guard(context);
+  Unfolded safe(context);
+  TRY(safe.position.copy(mesh.position));
+  TRY(safe.triangle.copy(mesh.triangle));
+  TRY(safe.folds.assign(patches, 0));
+  TRY(safe.known.assign(patches, 0));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
+  TRY(unfold(context, mesh, guard, &safe));
   for (int k = 0; k < options.paper_steps; ++k) {
     TRY(paper_step(context, mesh, &shapes, report));
+    TRY(unfold(context, mesh, guard, &safe));
   }
   // Soft curves take the normals that the last step smoothed; held ones have those given.
   TRY(curve_normal.copy(mesh.normal));
   TRY(prepare_guard(mesh, patches, &guard));
+  Foretold foretold(context);
+  if (options.displacement_steps > 0) {
+    TRY(foretell(context, mesh, curve_normal.span(), &foretold));
+  }
   MinimumVariation solver(context);
   const double smoothing_length = options.smoothness * mean_patch_size(guard);
   for (int k = 0; k < options.displacement_steps; ++k) {
-    TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), &solver, &guard,
-                          report));
+    TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), foretold, &solver,
+                          &guard, report));
+    TRY(unfold(context, mesh, guard, &safe));
     double greatest = 0.0;
     for (size_t p = 0; p < guard.step.size(); ++p) {
       if (!guard.frozen[p] && guard.step[p] > greatest) greatest = guard.step[p];
     }
     if (greatest < k_small_step) break;
   }
+  put_back_folded(mesh, safe, report);
   if (options.displacement_steps > 0) report->residual = solver.residual();
   report->factorisations = solver.factorisations();
   report->iterations = solver.iterations();

@@ -6,10 +6,11 @@
 // shapes of the triangles in which the harmonic start is computed. Out: positions, propagated
 // normals, triangles (edges inside patches may be flipped). A patch whose displacement runs away
 // (more than a quarter of its size, or growing) is put back to what the paper's steps gave and
-// stays there. Cost: one factorisation of size n for the start, one for each of two paper steps,
-// one of size 2 n for the displacements, more where it no longer serves the later ones. Sources: T. Stanko et al., "Surfacing Curve
-// Networks with Normal Control", 2016; H. Moreton, C. Sequin, "Functional Optimization for Fair
-// Surface Design", 1992.
+// stays there. After every step folds are taken out; a patch that ends with one goes back to its
+// last state without. Cost: one factorisation of size n for the start, one for each of two paper
+// steps, one of size 2 n for the displacements, more where it no longer serves the later ones.
+// Sources: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016; H. Moreton, C.
+// Sequin, "Functional Optimization for Fair Surface Design", 1992.
 #pragma once
 
 #include "smooth/smooth.h"
@@ -27,6 +28,7 @@ struct FairMesh {
   Soft soft;
   Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
   Span<const uint8_t> bare = {};                // held, on a border, normal not known; empty: none
+  Span<uint8_t> guarded = {};                   // out: of each patch, whether it was held back
 };
 
 struct FairOptions {

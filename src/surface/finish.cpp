@@ -69,6 +69,7 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   smooth::FairReport report;
   smooth::FairOptions options;
   if (method == smooth::Method::iterated) options.displacement_steps = 0;
+  TRY(surface->patch_guarded.assign(counts->patches, 0));
   const bool planes = start.metric == smooth::Metric::planes;
   const smooth::FairMesh mesh = {piece.position,
                                  piece.normal,
@@ -79,7 +80,8 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                  piece.on_border,
                                  piece.soft,
                                  planes ? start.shape : Span<const mesh::TriangleShape>{},
-                                 piece.bare};
+                                 piece.bare,
+                                 surface->patch_guarded.span()};
   TRY(smooth::fair(context, mesh, counts->patches, options, &report));
   counts->residual = report.residual;
   counts->guarded_patches = report.guarded_patches;

@@ -126,7 +126,7 @@ TEST_CASE("fair on shapes that its constants were not chosen with, off the axes"
     const accuracy::Result fair = accuracy::build(coarse, WSK_METHOD_FAIR, 1);
     REQUIRE_MESSAGE(fair.status == WSK_OK, fair.report.sentence);
     const double rms = print_row(c.name.c_str(), "fair", fair, c.truth).rms;
-    CHECK(rms < 0.009);
+    CHECK(rms < 0.005);
     CHECK(accuracy::curve_normal_deviation(fair).max <=
           std::fmax(1.2, 0.25 + accuracy::unavoidable_deviation(fair, c.truth)));
     CHECK(fair.report.guarded_patches == 0);

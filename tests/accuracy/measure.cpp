@@ -50,6 +50,9 @@ static void take(wsk_surface* surface, Result* result) {
   result->vertex_curve.assign(view.vertex_curve, view.vertex_curve + view.vertex_count);
   result->triangles.assign(view.triangles, view.triangles + 3 * view.triangle_count);
   result->patches.assign(view.triangle_patch, view.triangle_patch + view.triangle_count);
+  for (uint32_t p = 0; view.patch_guarded != nullptr && p < view.patch_count; ++p) {
+    if (view.patch_guarded[p]) result->guarded.push_back(p);
+  }
   wsk_surface_free(surface);
 }
 

@@ -19,6 +19,7 @@ struct Result {
   std::vector<networks::Point> positions, normals, constraint_normals;
   std::vector<double> mean_curvature;
   std::vector<uint32_t> vertex_curve, triangles, patches;
+  std::vector<uint32_t> guarded;  // the patches that were held back
 
   bool is_free(size_t v) const { return vertex_curve[v] == WSK_NONE; }
 };

@@ -40,7 +40,7 @@ RealRow real_row(Page& page, const RealCase& c, const Method& m, double stanko) 
             stanko > 0.0 ? text("%.2f", row.error.rms / stanko) : "",
             text("%.2f / %.1f", row.curve_normals.mean, row.curve_normals.max),
             text("%u", row.error.sharp_edges), list(row.error.opposing), list(row.error.inside_out),
-            text("%u", result.report.guarded_patches), text("%.0f", result.report.total_ms)});
+            list(result.guarded), text("%.0f", result.report.total_ms)});
   return row;
 }
 
@@ -73,7 +73,7 @@ void real_table(Page& page, Bounds& bounds) {
       "Opposing: patches with more than a hundredth of their area facing against the model next to "
       "them, as where they leave out a feature of it; inside out: more than half.");
   page.header({"network", "method", "patches", "free", "RMS", "max", "over stanko", "curve normals",
-               "sharp edges", "opposing", "inside out", "guarded", "ms"});
+               "sharp edges", "opposing", "inside out", "guarded patches", "ms"});
   Ratios fair_ratios, iterated_ratios;
   cases.insert(cases.begin(), lily.begin(), lily.end());
   for (const RealCase& c : cases) {
@@ -90,6 +90,7 @@ void real_table(Page& page, Bounds& bounds) {
       if (!row.built) continue;
       bounds.at_most(c.name + ", inside-out patches",
                      static_cast<double>(row.error.inside_out.size()), 0.0);
+      bounds.at_most(c.name + ", folds", row.error.sharp_edges, 0.0);
       if (!cut) {
         bounds.at_most("lilium, RMS", row.error.rms, 0.023);
         bounds.at_most("lilium, mean curve normals", row.curve_normals.mean, 1.5);

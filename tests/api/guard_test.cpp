@@ -61,9 +61,12 @@ TEST_CASE("a patch whose displacement runs away keeps what the paper's steps gav
   REQUIRE(fair.status == WSK_OK);
   CHECK(fair.report.patches == 2);
   CHECK(fair.report.guarded_patches == 2);
+  CHECK(fair.result.patch_guarded == std::vector<uint8_t>{1, 1});
   const Call iterated = built(scene, WSK_METHOD_ITERATED);
   REQUIRE(iterated.status == WSK_OK);
   CHECK(iterated.report.guarded_patches == 0);
+  CHECK(iterated.result.patch_guarded == std::vector<uint8_t>{0, 0});
+  CHECK(built(scene, WSK_METHOD_STANKO).result.patch_guarded.empty());
   CHECK(fair.result.positions == iterated.result.positions);
   CHECK(fair.result.triangles == iterated.result.triangles);
 }

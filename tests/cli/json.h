@@ -67,15 +67,17 @@ class JsonReader {
     } while (took(','));
     need(took('}'), "end of object");
   }
-  // Elements are "path.0", "path.1" ...
+  // Elements are called path.0, path.1 and so on; path.length says how many there are.
   void array(const std::string& path) {
     take();
-    if (took(']')) return;
-    size_t index = 0;
-    do {
-      value(path + "." + std::to_string(index++));
-    } while (took(','));
-    need(took(']'), "end of array");
+    size_t count = 0;
+    if (!took(']')) {
+      do {
+        value(path + "." + std::to_string(count++));
+      } while (took(','));
+      need(took(']'), "end of array");
+    }
+    values[path + ".length"] = std::to_string(count);
   }
   std::string string() {
     std::string result;

@@ -39,7 +39,14 @@ TEST_CASE("every value under its name") {
   Arguments arguments;
   arguments.input = "a \"b\"\\c.net";
   arguments.outputs = {"x.ply"};
-  auto values = JsonReader(report_json(arguments, filled_report())).values;
+  wsk_surface_view surface = {};
+  const uint8_t guarded[] = {0, 1, 0, 0, 1, 0, 0, 0};
+  surface.patch_count = 8;
+  surface.patch_guarded = guarded;
+  auto values = JsonReader(report_json({arguments, filled_report(), &surface})).values;
+  CHECK(values["guarded_patch_list.length"] == "2");
+  CHECK(values["guarded_patch_list.0"] == "1");
+  CHECK(values["guarded_patch_list.1"] == "4");
   CHECK(values["version"] == wsk_version_string());
   CHECK(values["input"] == arguments.input);
   CHECK(values["output"] == "x.ply");
@@ -75,7 +82,8 @@ TEST_CASE("a failure with its place") {
   report.sentence = "the normal has zero length";
   report.curve = 3;
   report.sample = 0;
-  auto values = JsonReader(report_json(Arguments(), report)).values;
+  auto values = JsonReader(report_json({Arguments(), report})).values;
+  CHECK(values["guarded_patch_list.length"] == "0");
   CHECK(values["status"] == "zero_normal");
   CHECK(values["stage"] == "input");
   CHECK(values["sentence"] == "the normal has zero length");
@@ -107,7 +115,7 @@ TEST_CASE("numbers that JSON cannot hold become null") {
   report.spacing = std::nan("");
   report.residual = std::numeric_limits<double>::infinity();
   report.stage_ms[0] = -report.residual;
-  auto values = JsonReader(report_json(Arguments(), report)).values;
+  auto values = JsonReader(report_json({Arguments(), report})).values;
   CHECK(values["spacing"] == "null");
   CHECK(values["residual"] == "null");
   CHECK(values["stage_ms.input"] == "null");

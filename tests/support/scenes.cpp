@@ -238,6 +238,9 @@ Result copy_of(const wsk_surface* surface) {
   result.triangle_patch = copied(view.triangle_patch, triangles);
   result.curve_edges = copied(view.curve_edges, 2 * size_t{view.curve_edge_count});
   result.curve_edge_curve = copied(view.curve_edge_curve, view.curve_edge_count);
+  if (view.patch_guarded != nullptr) {
+    result.patch_guarded.assign(view.patch_guarded, view.patch_guarded + view.patch_count);
+  }
   return result;
 }
 

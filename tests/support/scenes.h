@@ -68,6 +68,7 @@ struct Result {
   uint32_t patch_count = 0;
   std::vector<double> positions, normals, mean_curvature, constraint_normals;
   std::vector<uint32_t> vertex_curve, triangles, triangle_patch, curve_edges, curve_edge_curve;
+  std::vector<uint8_t> patch_guarded;  // not part of the hash
 };
 
 Result copy_of(const wsk_surface* surface);
