@@ -112,8 +112,9 @@ static Status fill_inside(const Region& region, double spacing, Triangulation* t
   TRY(survey(*t, spacing, &sizes, &obstacles));
   TRY(lattice_points(obstacles.span(), spacing, expected, &lattice));
   TRY(insert_lattice(lattice.span(), spacing, t, &sizes));
+  const uint32_t first_loose = static_cast<uint32_t>(t->points.size());
   TRY(refine(t, &sizes, spacing, most_vertices));
-  return relax(t, sizes.span(), k_box_corners + given, k_relaxing_sweeps);
+  return relax(t, sizes.span(), k_box_corners + given, first_loose, k_relaxing_sweeps);
 }
 
 static Status copy_result(const Triangulation& t, Span<const Vec2> given, PolygonMesh* mesh) {
