@@ -69,7 +69,8 @@ static ClearedEdge clear_edge(const LatticeFrame& frame, const LatticeObstacle& 
   ClearedEdge edge = {frame.enter(obstacle.a), frame.enter(obstacle.b), 0.0, 0.0, 0.0, index,
                       obstacle.border};
   const double size = obstacle.size / frame.spacing;
-  edge.radius = k_clearance + std::fabs(size - 1.0) / k_size_gradient;
+  edge.radius =
+      k_clearance + (size < 1.0 ? (1.0 - size) / k_size_growth : (size - 1.0) / k_size_descent);
   edge.low = smaller(edge.a.y, edge.b.y) - edge.radius;
   edge.high = larger(edge.a.y, edge.b.y) + edge.radius;
   return edge;

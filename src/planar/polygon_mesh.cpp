@@ -45,7 +45,7 @@ static bool is_main_direction(const Triangulation& t, uint32_t h) {
 // distance of its nearest neighbour if that is less.
 static Status survey_star(const Triangulation& t, uint32_t v, double spacing, double* size,
                           Array<LatticeObstacle>* obstacles) {
-  double sum = 0.0, nearest = spacing;
+  double sum = 0.0, nearest = spacing, shortest = DBL_MAX;
   uint32_t edges = 0, spoke = t.leaving[v];
   do {
     const Vec2& end = t.points[t.end(spoke)];
@@ -54,6 +54,7 @@ static Status survey_star(const Triangulation& t, uint32_t v, double spacing, do
     if (t.constrained(spoke)) {
       const bool border = (t.edge_bits(spoke) & k_border) != 0;
       sum += reach;
+      shortest = smaller(shortest, reach);
       ++edges;
       if (is_main_direction(t, spoke)) {
         TRY(obstacles->push({t.points[v], end, reach, border}));
@@ -61,7 +62,7 @@ static Status survey_star(const Triangulation& t, uint32_t v, double spacing, do
     }
     spoke = t.turn(spoke);
   } while (spoke != t.leaving[v]);
-  *size = edges != 0 ? sum / edges : nearest;
+  *size = edges != 0 ? smaller(sum / edges, 2.0 * shortest) : nearest;
   if (edges == 0) TRY(obstacles->push({t.points[v], t.points[v], nearest, false}));
   return {};
 }

@@ -62,9 +62,8 @@ static uint32_t pop_triangle(Refiner* r) {
 }
 
 static double drift(double size, double spacing, double distance) {
-  const double change = k_size_gradient * distance;
-  if (size < spacing) return size + change < spacing ? size + change : spacing;
-  return size - change > spacing ? size - change : spacing;
+  if (size < spacing) return smaller(size + k_size_growth * distance, spacing);
+  return larger(size - k_size_descent * distance, spacing);
 }
 
 // The point above edge h that makes a triangle of the wished size, or the circumcentre if that is

@@ -1,6 +1,7 @@
 // Evens out the inside of a refined triangulation: sweeps of moving each free vertex to where its
-// edges have the wished lengths; each move is followed by flips that make the triangulation
-// Delaunay again, so it is so before and after.
+// edges have the wished lengths, then a search for better places of the corners of triangles that
+// are still poor; each move is followed by flips that make the triangulation Delaunay again, so it
+// is so before and after.
 //
 // In: a triangulation with its outside marked and a size for each vertex; vertices from
 // `first_free` on, all inside, may move; those before `first_loose` are at rest among themselves. A
