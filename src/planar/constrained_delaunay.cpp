@@ -94,6 +94,7 @@ Location locate(Triangulation* t, const Vec2& p, uint32_t triangle, bool stop_at
   const size_t most_steps = 4 * t->triangles.size() + 64;
   for (size_t step = 0; step < most_steps; ++step) {
     const Location location = place_in_triangle(t, p, triangle, entry);
+    ++t->work;
     if (location.where != Where::hidden) return location;
     const uint32_t beyond = t->twin(location.edge);
     if (beyond == k_none) return location;
@@ -136,6 +137,7 @@ Status collect_cavity(Triangulation* t, const Vec2& p, uint32_t triangle) {
     TRY(t->stack.push(Triangulation::previous(g)));
     TRY(t->stack.push(Triangulation::next(g)));
   }
+  t->work += t->cavity.size();
   return {};
 }
 

@@ -61,6 +61,8 @@ struct Triangulation {
   uint32_t hint = 0;        // a triangle near the last change, where walks begin
   uint32_t dice = 1;        // keeps walks from running in circles, the same in every run
 
+  uint64_t work = 0;  // triangles that walks and cavities have looked at
+
   // Why recover_edge refused: the vertex in the way, or else the constraint.
   uint32_t touched = k_none;
   uint32_t crossed = k_none;

@@ -10,6 +10,9 @@ namespace wireskin::planar {
 static constexpr double k_coarseness = 1.25;
 // The least distance between a new point and any vertex that it will be joined with, over its size.
 static constexpr double k_least_distance = 0.7;
+// Triangles that may be looked at for each vertex allowed. A tenth is usual; beside a fan of
+// needles on one long edge, each point that is proposed and refused could cost the whole fan.
+static constexpr uint64_t k_most_work = 64;
 // Cosine of the angle under which a point may see a border edge: 105 degrees.
 static constexpr double k_lens_cosine = -0.2588190451025208;
 
@@ -188,7 +191,9 @@ Status refine(Triangulation* t, Array<double>* sizes, double spacing, size_t mos
     const uint32_t h = 4 * i;
     if (is_front(*t, h) || is_front(*t, h + 1) || is_front(*t, h + 2)) TRY(queue_triangle(&r, i));
   }
+  const uint64_t most_work = t->work + k_most_work * most_vertices;
   for (size_t step = 0; r.head < r.queue.size() && t->points.size() < most_vertices; ++step) {
+    if (t->work > most_work) break;
     if (step % 4096 == 0) TRY(t->points.context().checkpoint());
     TRY(refine_triangle(&r, pop_triangle(&r)));
   }

@@ -6,7 +6,8 @@
 // In: a triangulation with closed constraints and its outside marked; `sizes`, the wished edge
 // length at each vertex. Out: more vertices, each with its size, which drifts from that of the
 // border to `spacing` by a part of the length of each step inward. Constraints are
-// never split; a point too near to one is left out. Ends after at most `most_vertices`.
+// never split; a point too near to one is left out. Ends after at most `most_vertices`,
+// or when too much work was in vain.
 // Cost: O(1) a point on average, a queue entry a triangle.
 // Source: S. Rebay, "Efficient Unstructured Mesh Generation by Means of Delaunay Triangulation and
 // Bowyer-Watson Algorithm", 1993; L. P. Chew, "Guaranteed-Quality Mesh Generation for Curved
