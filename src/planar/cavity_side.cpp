@@ -202,7 +202,7 @@ static bool reinsert(SideTriangles* side, SideBuilder* builder, uint32_t u) {
   return round;
 }
 
-static bool should_flip(const SideTriangles& side, uint32_t h) {
+static bool side_should_flip(const SideTriangles& side, uint32_t h) {
   const uint32_t g = side.triangles[h >> 2].twin[h & 3];
   if (g == k_none) return false;
   const uint32_t a = side_start(side, h), b = side_start(side, g);
@@ -241,7 +241,7 @@ static Status settle(SideTriangles* side, SideBuilder* builder) {
   while (!builder->stack.empty()) {
     const uint32_t h = builder->stack.back();
     builder->stack.pop();
-    if (!should_flip(*side, h)) continue;
+    if (!side_should_flip(*side, h)) continue;
     const uint32_t g = side->triangles[h >> 2].twin[h & 3];
     flip_side(side, h);
     const uint32_t changed[2] = {h >> 2, g >> 2};
