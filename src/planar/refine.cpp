@@ -10,6 +10,9 @@ namespace wireskin::planar {
 static constexpr double k_coarseness = 1.25;
 // The least distance between a new point and any vertex that it will be joined with, over its size.
 static constexpr double k_least_distance = 0.7;
+// Triangles that may be looked at for each vertex allowed. A tenth is usual; beside a fan of
+// needles on one long edge, each point that is proposed and refused could cost the whole fan.
+static constexpr uint64_t k_most_work = 64;
 // Cosine of the angle under which a point may see a border edge: 105 degrees.
 static constexpr double k_lens_cosine = -0.2588190451025208;
 
@@ -62,9 +65,8 @@ static uint32_t pop_triangle(Refiner* r) {
 }
 
 static double drift(double size, double spacing, double distance) {
-  const double change = k_size_gradient * distance;
-  if (size < spacing) return size + change < spacing ? size + change : spacing;
-  return size - change > spacing ? size - change : spacing;
+  if (size < spacing) return smaller(size + k_size_growth * distance, spacing);
+  return larger(size - k_size_descent * distance, spacing);
 }
 
 // The point above edge h that makes a triangle of the wished size, or the circumcentre if that is
@@ -100,7 +102,7 @@ static bool is_clear(const Triangulation& t, const Proposal& proposal) {
     const Vec2 a = t.points[t.outline[i].vertex] - proposal.point;
     const double aa = dot(a, a);
     if (!(aa >= least * least)) return false;
-    if (t.outline[i].constrained == 0) continue;
+    if ((t.outline[i].bits & 1) == 0) continue;
     const Vec2 b = t.points[t.outline[i + 1 < count ? i + 1 : 0].vertex] - proposal.point;
     if (dot(a, b) < k_lens_cosine * std::sqrt(aa * dot(b, b))) return false;
   }
@@ -189,7 +191,9 @@ Status refine(Triangulation* t, Array<double>* sizes, double spacing, size_t mos
     const uint32_t h = 4 * i;
     if (is_front(*t, h) || is_front(*t, h + 1) || is_front(*t, h + 2)) TRY(queue_triangle(&r, i));
   }
+  const uint64_t most_work = t->work + k_most_work * most_vertices;
   for (size_t step = 0; r.head < r.queue.size() && t->points.size() < most_vertices; ++step) {
+    if (t->work > most_work) break;
     if (step % 4096 == 0) TRY(t->points.context().checkpoint());
     TRY(refine_triangle(&r, pop_triangle(&r)));
   }

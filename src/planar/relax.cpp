@@ -7,8 +7,22 @@ namespace wireskin::planar {
 
 // Squared sine of the angle that a move may not fall below even if others gain: 40 degrees.
 static constexpr double k_good_sine2 = 0.41317591116653485;
+// Triangles with a smaller angle than 28 degrees are worth a search.
+static constexpr double k_poor_sine2 = 0.22040354826462722;
+static constexpr int k_searches = 3;
 // Steps shorter than this part of the size are not worth their flips.
 static constexpr double k_least_step = 0.01;
+
+struct Mobility {
+  uint32_t first_free, first_loose;
+
+  bool rests(const Triangle& triangle) const {
+    for (const uint32_t v : triangle.vertex) {
+      if (v < first_free || v >= first_loose) return false;
+    }
+    return true;
+  }
+};
 
 // Squared sine of the least angle. It lies opposite the shortest side, and its sine is twice the
 // area over the product of the other two.
@@ -121,17 +135,77 @@ static Status relax_vertex(Triangulation* t, Span<const double> sizes, Span<uint
   return {};
 }
 
-Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, int sweeps) {
+// Looks round a vertex, near and nearer, for the place where the worst triangle is best.
+static Status search_place(Triangulation* t, uint32_t vertex, bool* found) {
+  static constexpr Vec2 k_directions[] = {{1, 0},  {0.7071, 0.7071},   {0, 1},  {-0.7071, 0.7071},
+                                          {-1, 0}, {-0.7071, -0.7071}, {0, -1}, {0.7071, -0.7071}};
+  const uint32_t h = t->leaving[vertex];
+  double reach = DBL_MAX;
+  uint32_t spoke = h;
+  do {
+    reach = smaller(reach, length(t->points[t->end(spoke)] - t->points[vertex]));
+    spoke = t->turn(spoke);
+  } while (spoke != h);
+  const double before = star_quality(*t, h, t->points[vertex]);
+  double best = before;
+  for (double step = 0.4 * reach; step > 0.03 * reach; step *= 0.5) {
+    const Vec2 centre = t->points[vertex];
+    for (const Vec2& direction : k_directions) {
+      const Vec2 moved = centre + step * direction;
+      const double quality = star_quality(*t, h, moved);
+      if (!(quality > best)) continue;
+      best = quality;
+      t->points[vertex] = moved;
+    }
+  }
+  if (!(best > before)) return {};
+  *found = true;
+  TRY(push_star(t, h));
+  return restore_delaunay(t);
+}
+
+// Searches better places for the free corners of poor triangles.
+static Status mend_triangles(Triangulation* t, const Mobility& mobility, bool* found) {
+  for (uint32_t i = 0; i < t->triangles.size(); ++i) {
+    if (i % 16384 == 0) TRY(t->points.context().checkpoint());
+    const Triangle triangle = t->triangles[i];
+    const uint32_t* v = triangle.vertex;
+    if ((triangle.flags & k_outside) != 0 || mobility.rests(triangle)) continue;
+    if (least_sine2(t->points[v[0]], t->points[v[1]], t->points[v[2]]) > k_poor_sine2) continue;
+    for (uint32_t k = 0; k < 3; ++k) {
+      if (v[k] >= mobility.first_free) TRY(search_place(t, v[k], found));
+    }
+  }
+  return {};
+}
+
+// Those that may want to move: loose vertices and the neighbours of loose or held ones.
+static void wake(const Triangulation& t, const Mobility& mobility, Span<uint8_t> awake) {
+  for (const Triangle& triangle : t.triangles) {
+    if (mobility.rests(triangle)) continue;
+    for (const uint32_t v : triangle.vertex) awake[v] = 1;
+  }
+}
+
+Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, uint32_t first_loose,
+             int sweeps) {
   Context& context = t->points.context();
   const uint32_t count = static_cast<uint32_t>(t->points.size());
+  const Mobility mobility = {first_free, first_loose};
   Array<uint8_t> awake(context);
-  TRY(awake.assign(count, 1));
+  TRY(awake.assign(count, 0));
+  wake(*t, mobility, awake.span());
   t->stack.clear();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (uint32_t v = first_free; v < count; ++v) {
       if (v % 16384 == 0) TRY(context.checkpoint());
       if (awake[v] != 0) TRY(relax_vertex(t, sizes, awake.span(), v));
     }
+  }
+  bool found = true;
+  for (int search = 0; search < k_searches && found; ++search) {
+    found = false;
+    TRY(mend_triangles(t, mobility, &found));
   }
   return {};
 }

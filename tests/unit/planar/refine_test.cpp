@@ -99,7 +99,7 @@ TEST_CASE("sizes drift from the border's to the spacing at a limited rate a step
   double greatest = 0.0;
   for (uint32_t i = r.first_free; i < r.t.points.size(); ++i) {
     const double from_border = 1.0 - length(r.t.points[i]);
-    CHECK(r.sizes[i] <= 2 * k_pi / 200 + 1.6 * k_size_gradient * from_border + 1e-9);
+    CHECK(r.sizes[i] <= 2 * k_pi / 200 + 1.6 * k_size_growth * from_border + 1e-9);
     greatest = std::max(greatest, r.sizes[i]);
   }
   CHECK(greatest > 0.15);
