@@ -1,5 +1,6 @@
 #include "smooth/system.h"
 
+#include "sparse/nested_dissection.h"
 #include "sparse/ordering.h"
 #include "sparse/product.h"
 
@@ -39,13 +40,25 @@ static Status negative_part(const sparse::Csc& a, Span<const uint32_t> unknown, 
   return {};
 }
 
-Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order) {
+Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
+                       const Places& places) {
   laplacian_ = &laplacian;
   order_ = order;
   analysed_ = false;
   unknowns_ = 0;
   TRY(unknown_.resize(fixed.size()));
   for (size_t v = 0; v < fixed.size(); ++v) unknown_[v] = fixed[v] ? k_none : unknowns_++;
+  place_.clear();
+  patch_.clear();
+  if (!places.position.empty()) {
+    TRY(place_.reserve(unknowns_));
+    TRY(patch_.reserve(unknowns_));
+    for (size_t v = 0; v < fixed.size(); ++v) {
+      if (fixed[v]) continue;
+      place_.push_reserved(places.position[v]);
+      patch_.push_reserved(places.patch[v]);
+    }
+  }
   TRY(rhs_.resize(size_t{3} * unknowns_));
   TRY(solution_.resize(size_t{3} * unknowns_));
   return work_.resize(size_t{3} * unknowns_);
@@ -56,6 +69,21 @@ void System::add_penalties() {
   for (size_t v = 0; v < penalty_.size(); ++v) {
     if (unknown_[v] != k_none) matrix_.value[matrix_.start[unknown_[v]]] += penalty_[v];
   }
+}
+
+// Finds the order of elimination and the structure of the factor.
+Status System::analyse() {
+  Array<uint32_t> order(weight_.context());
+  if (place_.empty()) {
+    TRY(sparse::minimum_degree(matrix_, &order));
+  } else {
+    TRY(sparse::nested_dissection(matrix_, {{}, place_.span(), patch_.span()}, &order));
+  }
+  place_.free();
+  patch_.free();
+  TRY(factor_.analyse(matrix_, order.span()));
+  analysed_ = true;
+  return {};
 }
 
 Status System::factor(Span<const double> weight, Span<const double> penalty) {
@@ -87,10 +115,7 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
   add_penalties();
   TRY(context.enter(Stage::factor));
   if (!analysed_) {
-    Array<uint32_t> order(context);
-    TRY(sparse::minimum_degree(matrix_, &order));
-    TRY(factor_.analyse(matrix_, order.span()));
-    analysed_ = true;
+    TRY(analyse());
   }
   Status factored = factor_.factor(matrix_);
   factored.place = {};  // a column of ours means nothing to the caller
