@@ -72,8 +72,8 @@ static Allocator allocator_of(const wsk_options& options) {
 }
 
 static Callbacks callbacks_of(const wsk_options& options) {
-  return {options.cancel,        options.cancel_user, options.progress,
-          options.progress_user, options.now,         options.now_user};
+  return {options.cancel, options.cancel_user, options.progress,     options.progress_user,
+          options.now,    options.now_user,    options.parallel_for, options.parallel_for_user};
 }
 
 static void report_status(const Status& status, wsk_report* report) {
@@ -119,6 +119,8 @@ static void report_costs(Context& context, wsk_report* report) {
   report->stage = static_cast<wsk_stage>(context.stage());
   report->peak_bytes = context.peak_bytes();
   report->factorisations = context.factorisations();
+  report->cg_iterations += context.iterations();
+  report->solver = context.is_iterative() ? WSK_SOLVER_ITERATIVE : WSK_SOLVER_DIRECT;
   for (int s = 0; s < WSK_STAGE_COUNT; ++s) {
     report->stage_ms[s] = context.milliseconds(s);
     report->total_ms += report->stage_ms[s];
@@ -458,7 +460,7 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   }
   const CurveSet set = {storage.start.span(),  storage.position.span(), storage.normal.span(),
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
-                        storage.soft.span(),   storage.sharp.span(),   storage.right.span()};
+                        storage.soft.span(),   storage.sharp.span(),    storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
                              smoothing_of(options, scale)};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default

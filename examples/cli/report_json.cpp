@@ -126,6 +126,7 @@ std::string report_json(const Arguments& arguments, const wsk_report& report) {
   json.number("residual", report.residual);
   json.count("factorisations", report.factorisations);
   json.count("cg_iterations", report.cg_iterations);
+  json.text("solver", report.solver == WSK_SOLVER_ITERATIVE ? "iterative" : "direct");
   json.count("minimal_area_patches", report.minimal_area_patches);
   json.count("guarded_patches", report.guarded_patches);
   json.number("noise_position", report.noise_position);

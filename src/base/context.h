@@ -122,6 +122,14 @@ class Context {
   void count_factorisation() { ++factorisations_; }
   uint32_t factorisations() const { return factorisations_; }
 
+  // Iterations that stood in for a factorisation which did not fit under the memory cap.
+  void count_iterations(uint32_t count) {
+    iterations_ += count;
+    iterative_ = true;
+  }
+  uint32_t iterations() const { return iterations_; }
+  bool is_iterative() const { return iterative_; }
+
   Stage stage() const { return stage_; }
   double milliseconds(int stage) const { return milliseconds_[stage]; }
   size_t used_bytes() const { return used_; }
@@ -145,6 +153,8 @@ class Context {
   size_t used_ = 0;
   size_t peak_ = 0;
   uint32_t factorisations_ = 0;
+  uint32_t iterations_ = 0;
+  bool iterative_ = false;
   Stage stage_ = Stage::input;
   double milliseconds_[k_stage_count] = {};
   double since_ = 0.0;

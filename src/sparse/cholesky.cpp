@@ -82,7 +82,7 @@ Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
   TRY(column_counts(lower_, parent.span(), &count));
   TRY(context_->checkpoint());
   TRY(find_supernodes(lower_, parent.span(), count.span(), &supernodes_));
-  TRY(plan_fronts(supernodes_, &fronts_));
+  TRY(plan_fronts(supernodes_, context_->is_parallel() ? Fronts::k_batch : 1, &fronts_));
   TRY(locate_entries());
   tallest_ = 0;
   for (uint32_t s = 0; s < supernodes_.count; ++s) {
@@ -102,8 +102,8 @@ uint32_t Cholesky::slots() const {
 
 size_t Cholesky::factor_bytes() const {
   if (!analysed_) return 0;
-  const size_t numbers = supernodes_.panel[supernodes_.count] + fronts_.workspace +
-                         2 * k_panel_margin + slots() * k_update_scratch;
+  const size_t numbers =
+      supernodes_.panel[supernodes_.count] + fronts_.workspace + slots() * k_update_scratch;
   return numbers * sizeof(double);
 }
 
@@ -256,7 +256,7 @@ void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
     double* x = own + size_t{j} * lanes;
     if (j > 0) {
       kernels_.update({lanes, columns, j, own, lanes, panel + j, 1, step, x, lanes, false, false},
-                       scratch_.data());
+                      scratch_.data());
     }
     kernels_.solve_block(triangle_at(panel + j * step + j, step, columns, false), lanes, x, lanes);
   }
@@ -301,11 +301,11 @@ void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
     double* x = own + size_t{j} * lanes;
     if (after < width) {
       kernels_.update({lanes, columns, width - after, own + size_t{after} * lanes, lanes,
-                        panel + j * step + after, step, 1, x, lanes, false, false},
-                       scratch_.data());
+                       panel + j * step + after, step, 1, x, lanes, false, false},
+                      scratch_.data());
     }
     kernels_.solve_block(triangle_at(panel + j * step + j, step, columns, true), lanes,
-                          x + size_t{columns - 1} * lanes, -static_cast<ptrdiff_t>(lanes));
+                         x + size_t{columns - 1} * lanes, -static_cast<ptrdiff_t>(lanes));
   }
 }
 

@@ -182,7 +182,7 @@ static Status place_batch(const Supernodes& s, const Step& step, Room* inside, R
   return {};
 }
 
-static Status place_updates(const Supernodes& s, Fronts* f) {
+static Status place_updates(const Supernodes& s, uint32_t batch, Fronts* f) {
   Context& context = f->run.context();
   Room room(context), inside(context);
   TRY(f->update.resize(s.count));
@@ -193,8 +193,7 @@ static Status place_updates(const Supernodes& s, Fronts* f) {
   while (step.end_task < tasks || step.end_upper < uppers) {
     step.first_task = step.end_task;
     step.first_upper = step.end_upper;
-    step.end_task =
-        tasks - step.first_task < Fronts::k_batch ? tasks : step.first_task + Fronts::k_batch;
+    step.end_task = tasks - step.first_task < batch ? tasks : step.first_task + batch;
     const uint32_t done = step.end_task < tasks ? f->task[step.end_task].first : s.count;
     while (step.end_upper < uppers && f->upper[step.end_upper] < done) ++step.end_upper;
     TRY(place_batch(s, step, &inside, &room, f));
@@ -210,11 +209,12 @@ static Status place_updates(const Supernodes& s, Fronts* f) {
   return {};
 }
 
-Status plan_fronts(const Supernodes& supernodes, Fronts* fronts) {
+Status plan_fronts(const Supernodes& supernodes, uint32_t batch, Fronts* fronts) {
+  WIRESKIN_ASSERT(batch > 0 && batch <= Fronts::k_batch);
   TRY(link_tree(supernodes, fronts));
   TRY(list_runs(supernodes, fronts));
   TRY(cut_tasks(supernodes, fronts));
-  return place_updates(supernodes, fronts);
+  return place_updates(supernodes, batch, fronts);
 }
 
 }  // namespace wireskin::sparse

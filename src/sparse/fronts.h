@@ -62,6 +62,7 @@ inline size_t update_size(uint32_t tail) {
   return size_t{round_up_rows(tail)} * tail;
 }
 
-Status plan_fronts(const Supernodes& supernodes, Fronts* fronts);
+// `batch`: the tasks of a step, at most k_batch; with fewer the workspace is smaller.
+Status plan_fronts(const Supernodes& supernodes, uint32_t batch, Fronts* fronts);
 
 }  // namespace wireskin::sparse
