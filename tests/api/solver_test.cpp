@@ -21,16 +21,16 @@ void on_two_threads(uint32_t count, void (*body)(uint32_t, void*), void* data, v
   second.join();
 }
 
-Scene fine_octants() {
+Scene fine_octants(double fineness) {
   Scene scene = octants();
-  scene.spacing /= 6.0;
+  scene.spacing /= fineness;
   return scene;
 }
 
 }  // namespace
 
 TEST_CASE("solver: the caller's threads change no bit") {
-  const Scene scene = fine_octants();
+  const Scene scene = fine_octants(12.0);
   wsk_options options = options_of(scene);
   const Call alone = watched_scene(scene, options);
   REQUIRE(alone.status == WSK_OK);
@@ -45,7 +45,7 @@ TEST_CASE("solver: the caller's threads change no bit") {
 }
 
 TEST_CASE("solver: under a memory cap iterations take the place of the factor, and say so") {
-  const Scene scene = fine_octants();
+  const Scene scene = fine_octants(6.0);
   wsk_options options = options_of(scene);
   const Call direct = watched_scene(scene, options);
   REQUIRE(direct.status == WSK_OK);
