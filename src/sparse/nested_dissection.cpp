@@ -33,6 +33,7 @@ struct PatchContact {
 struct Dissector {
   const Geometry& geometry;
   Array<uint32_t> start, neighbour;  // the graph of the vertices
+  Array<uint32_t> columns;           // of each vertex
   Array<uint8_t> mixed;              // has a neighbour in another patch
   Array<PatchCentre> centre;
   Array<PatchContact> contact;
@@ -49,6 +50,7 @@ struct Dissector {
       : geometry(g),
         start(c),
         neighbour(c),
+        columns(c),
         mixed(c),
         centre(c),
         contact(c),
@@ -74,9 +76,11 @@ static Status build_graph(const Csc& lower, Dissector* d) {
   Context& context = d->start.context();
   Array<uint32_t> next(context), seen(context);
   TRY(d->start.assign(size_t{vertices} + 1, 0));
+  TRY(d->columns.assign(vertices, 0));
   for (uint32_t j = 0; j < lower.cols; ++j) {
     TRY(checkpoint_at_column(context, j));
     const uint32_t v = vertex_of(g, j);
+    ++d->columns[v];
     for (uint32_t k = lower.start[j] + 1; k < lower.start[j + 1]; ++k) {
       const uint32_t w = vertex_of(g, lower.row[k]);
       if (w == v) continue;
@@ -314,6 +318,13 @@ static uint32_t list_layer(uint32_t first, uint32_t end, uint8_t other, const Ne
   return count;
 }
 
+// The columns of the vertices at these places.
+static uint32_t weigh_layer(const Dissector& d, const uint32_t* place, uint32_t count) {
+  uint32_t sum = 0;
+  for (uint32_t k = 0; k < count; ++k) sum += d.columns[d.order[place[k]]];
+  return sum;
+}
+
 // Swaps the entries at `count` ascending places to the end of those before `end`.
 static void move_to_end(const uint32_t* place, uint32_t count, uint32_t end, Dissector* d) {
   for (uint32_t k = count; k-- > 0;) swap_values(d->order[place[k]], d->order[--end]);
@@ -341,7 +352,8 @@ static Status divide(const Stretch& s, Dissector* d) {
   for (uint32_t k = s.first; k < s.end; ++k) d->side[d->order[k]] = 0;
   d->work += s.end - s.first;
   uint32_t left_size = middle - s.first, right_size = s.end - middle;
-  if (left_layer <= right_layer) {
+  if (weigh_layer(*d, left_place, left_layer) <=
+      weigh_layer(*d, left_place + left_layer, right_layer)) {
     move_to_end(left_place, left_layer, middle, d);
     left_size -= left_layer;
     // The layer stands between left and right: it changes places with as many of right's end.
