@@ -56,8 +56,8 @@ Allocator allocator_of(const wsk_options& options) {
 }
 
 Callbacks callbacks_of(const wsk_options& options) {
-  return {options.cancel,        options.cancel_user, options.progress,
-          options.progress_user, options.now,         options.now_user};
+  return {options.cancel, options.cancel_user, options.progress,     options.progress_user,
+          options.now,    options.now_user,    options.parallel_for, options.parallel_for_user};
 }
 
 static void report_status(const Status& status, wsk_report* report) {
@@ -103,6 +103,8 @@ void report_costs(Context& context, wsk_report* report) {
   report->stage = static_cast<wsk_stage>(context.stage());
   report->peak_bytes = context.peak_bytes();
   report->factorisations = context.factorisations();
+  report->cg_iterations += context.iterations();
+  report->solver = context.is_iterative() ? WSK_SOLVER_ITERATIVE : WSK_SOLVER_DIRECT;
   for (int s = 0; s < WSK_STAGE_COUNT; ++s) {
     report->stage_ms[s] = context.milliseconds(s);
     report->total_ms += report->stage_ms[s];

@@ -88,7 +88,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
       count_topology(patches.vertices, surface->triangle.span(), &topology, counts), nodes.span()));
 
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
-  const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span()};
+  const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
+                       patches.start.span()};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
@@ -162,8 +163,9 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
   TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
   TRY(check_cutoff(set.soft, diagonal(set.position), k_none));
   TRY(constrain_vertices(set, counts->spacing, &constraints));
-  return smooth_surface(context, {shapes.span(), smooth::Metric::space, topology.on_border.span()},
-                        constraints, settings.method, surface);
+  return smooth_surface(
+      context, {shapes.span(), smooth::Metric::space, topology.on_border.span(), set.position},
+      constraints, settings.method, surface);
 }
 
 }  // namespace wireskin

@@ -251,6 +251,16 @@ typedef struct wsk_options {
   /* A clock in milliseconds from any origin, for the times in the report; without it they are 0. */
   double (*now)(void* user);
   void* now_user;
+
+  /* Your thread pool: calls body(index, data) for every index below `count`, in any order and on any
+     threads, and returns when all have returned; it must not drop one. Null (the default): everything
+     runs on the calling thread. The library starts no threads, and the result has the same bits
+     either way. All other callbacks are only called from the thread that made the call, never from
+     a body, so they need no locks. What is divided so far is the factorisation of large systems,
+     which then needs some MiB more. */
+  void (*parallel_for)(uint32_t count, void (*body)(uint32_t index, void* data), void* data,
+                       void* user);
+  void* parallel_for_user;
 } wsk_options;
 
 /* Writes the defaults into *options. `size` is sizeof(wsk_options) as the caller knows it. Does
@@ -259,6 +269,15 @@ WSK_API void wsk_options_init(wsk_options* options, size_t size);
 
 /* ---- Report -----------------------------------------------------------------------------------
  */
+
+typedef int32_t wsk_solver;
+enum {
+  WSK_SOLVER_DIRECT = 0,
+  /* The factor did not fit under the memory cap: conjugate gradients, preconditioned by two factors
+     of the Laplacian. Slower by an order of magnitude, in about half the memory. */
+  WSK_SOLVER_ITERATIVE = 1,
+  WSK_SOLVER_COUNT = 2
+};
 
 typedef struct wsk_report {
   size_t size; /* set by wsk_report_init */
@@ -312,6 +331,7 @@ typedef struct wsk_report {
   size_t peak_bytes;                /* the most memory held at any time during the call */
   double stage_ms[WSK_STAGE_COUNT]; /* 0 without a clock */
   double total_ms;
+  wsk_solver solver; /* how the largest systems were solved; the memory cap decides */
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.

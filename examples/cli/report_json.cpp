@@ -242,6 +242,7 @@ std::string outcome_json(const ReportInput& input, const Outcome& outcome) {
   json.number("residual", report.residual);
   json.count("factorisations", report.factorisations);
   json.count("cg_iterations", report.cg_iterations);
+  json.text("solver", report.solver == WSK_SOLVER_ITERATIVE ? "iterative" : "direct");
   json.count("minimal_area_patches", report.minimal_area_patches);
   json.count("guarded_patches", report.guarded_patches);
   json.member("guarded_patch_list", guarded_list(input.surface));

@@ -40,6 +40,11 @@ struct Callbacks {
   void* progress_user = nullptr;
   double (*now)(void* user) = nullptr;  // milliseconds from any origin
   void* now_user = nullptr;
+  // Calls body(index, data) for every index below `count`, in any order and on any threads, and
+  // returns when all are done.
+  void (*parallel_for)(uint32_t count, void (*body)(uint32_t index, void* data), void* data,
+                       void* user) = nullptr;
+  void* parallel_for_user = nullptr;
 };
 
 class Context {
@@ -87,6 +92,18 @@ class Context {
     return checkpoint();
   }
 
+  bool is_parallel() const { return callbacks_.parallel_for != nullptr; }
+
+  // The bodies may run at the same time: they share no memory that one of them writes, and know
+  // nothing of this context, so that allocation, checkpoints and progress stay with the caller.
+  void for_each(uint32_t count, void (*body)(uint32_t index, void* data), void* data) {
+    if (is_parallel() && count > 1) {
+      callbacks_.parallel_for(count, body, data, callbacks_.parallel_for_user);
+      return;
+    }
+    for (uint32_t i = 0; i < count; ++i) body(i, data);
+  }
+
   // Closes the books of the running stage and opens those of `stage`.
   Status enter(Stage stage) {
     stop_clock();
@@ -111,10 +128,20 @@ class Context {
   void count_factorisation() { ++factorisations_; }
   uint32_t factorisations() const { return factorisations_; }
 
+  // Iterations that stood in for a factorisation which did not fit under the memory cap.
+  void count_iterations(uint32_t count) {
+    iterations_ += count;
+    iterative_ = true;
+  }
+  uint32_t iterations() const { return iterations_; }
+  bool is_iterative() const { return iterative_; }
+
   Stage stage() const { return stage_; }
   double milliseconds(int stage) const { return milliseconds_[stage]; }
   size_t used_bytes() const { return used_; }
   size_t peak_bytes() const { return peak_; }
+  // What the cap still allows, SIZE_MAX without one.
+  size_t room_bytes() const { return cap_ == 0 ? SIZE_MAX : cap_ - used_; }
   const Allocator& allocator() const { return allocator_; }
 
  private:
@@ -132,6 +159,8 @@ class Context {
   size_t used_ = 0;
   size_t peak_ = 0;
   uint32_t factorisations_ = 0;
+  uint32_t iterations_ = 0;
+  bool iterative_ = false;
   Stage stage_ = Stage::input;
   double milliseconds_[k_stage_count] = {};
   double since_ = 0.0;

@@ -51,4 +51,10 @@ Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uin
 // The least angle of all triangles, in degrees.
 double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles);
 
+// For each vertex the patch of one of its triangles, given the patch of each triangle.
+inline void patches_of_vertices(Span<const uint32_t> triangles, Span<const uint32_t> patch,
+                                Span<uint32_t> result) {
+  for (size_t h = 0; h < triangles.size(); ++h) result[triangles[h]] = patch[h / 3];
+}
+
 }  // namespace wireskin::mesh

@@ -1,8 +1,9 @@
 #include "smooth/displace.h"
 
 #include "mesh/curvature.h"
+#include "mesh/mesh.h"
 #include "sparse/conjugate_gradients.h"
-#include "sparse/ordering.h"
+#include "sparse/nested_dissection.h"
 #include "sparse/product.h"
 
 namespace wireskin::smooth {
@@ -251,8 +252,23 @@ Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const
   return status.code == Code::not_positive_definite ? Status{} : status;
 }
 
-Status MinimumVariation::solve_by_new_factor(const sparse::Csc& rows, Span<const double> weight,
-                                             Span<const double> rhs, Span<double> solution) {
+// By vertices, so that u and h of a vertex stay together.
+Status MinimumVariation::order_unknowns(const DisplaceInput& input, const sparse::Csc& matrix,
+                                        Array<uint32_t>* order) const {
+  Array<uint32_t> vertex(context_), patch(context_);
+  TRY(vertex.reserve(unknowns_));
+  TRY(patch.assign(input.position.size(), 0));
+  for (uint32_t v = 0; v < displacement_.size(); ++v) {
+    if (displacement_[v] != k_none) vertex.push_reserved(v);
+    vertex.push_reserved(v);
+  }
+  mesh::patches_of_vertices(input.triangle, input.patch, patch.span());
+  return sparse::nested_dissection(matrix, {vertex.span(), input.position, patch.span()}, order);
+}
+
+Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const sparse::Csc& rows,
+                                             Span<const double> weight, Span<const double> rhs,
+                                             Span<double> solution) {
   sparse::Csc transposed(context_), matrix(context_);
   Array<uint32_t> all(context_), order(context_);
   TRY(sparse::transpose(rows, &transposed));
@@ -263,7 +279,7 @@ Status MinimumVariation::solve_by_new_factor(const sparse::Csc& rows, Span<const
   transposed.row.free();
   transposed.value.free();
   TRY(context_.enter(Stage::factor));
-  TRY(sparse::minimum_degree(matrix, &order));
+  TRY(order_unknowns(input, matrix, &order));
   TRY(factor_.analyse(matrix, order.span()));
   Status factored = factor_.factor(matrix);
   factored.place = {};  // a column of ours means nothing to the caller
@@ -313,7 +329,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   if (factorisations_ > 0) {
     TRY(solve_by_old_factor(rows, weight.span(), rhs.span(), solution.span(), &solved));
   }
-  if (!solved) TRY(solve_by_new_factor(rows, weight.span(), rhs.span(), solution.span()));
+  if (!solved) TRY(solve_by_new_factor(input, rows, weight.span(), rhs.span(), solution.span()));
   for (uint32_t v = 0; v < n; ++v) {
     step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
   }

@@ -62,8 +62,11 @@ class MinimumVariation {
                    const sparse::Csc& laplacian, sparse::Csc* rows) const;
   Status solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
                              Span<const double> rhs, Span<double> solution, bool* solved);
-  Status solve_by_new_factor(const sparse::Csc& rows, Span<const double> weight,
-                             Span<const double> rhs, Span<double> solution);
+  Status order_unknowns(const DisplaceInput& input, const sparse::Csc& matrix,
+                        Array<uint32_t>* order) const;
+  Status solve_by_new_factor(const DisplaceInput& input, const sparse::Csc& rows,
+                             Span<const double> weight, Span<const double> rhs,
+                             Span<double> solution);
 
   Context& context_;
   sparse::Cholesky factor_;

@@ -103,7 +103,7 @@ static Status harmonic_start(Context& context, const FairMesh& mesh, double* res
   Array<double> weight(context);
   TRY(mesh::cotangent_laplacian(n, mesh.triangle, mesh.start_shape, &laplacian));
   TRY(weight.assign(n, 1.0));
-  TRY(system.prepare(laplacian, mesh.on_curve, Order::one));  // soft curves move later
+  TRY(system.prepare(laplacian, mesh.on_curve, Order::one, mesh.places));  // soft curves move later
   TRY(system.factor(weight.span(), {}));
   return system.solve({}, {}, mesh.position, residual);
 }
@@ -115,8 +115,8 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
   TRY(mesh::care(context, {mesh.position, mesh.triangle, mesh.patch, mesh.on_curve}, &flips));
   report->flips += flips;
   TRY(mesh::triangle_shapes(mesh.position, mesh.triangle, shapes));
-  const Domain domain = {mesh.triangle,  shapes->span(), mesh.on_curve, mesh.held,
-                         mesh.on_border, Metric::space,  mesh.soft,     mesh.bare};
+  const Domain domain = {mesh.triangle, shapes->span(), mesh.on_curve, mesh.held,  mesh.on_border,
+                         Metric::space, mesh.soft,      mesh.bare,     mesh.places};
   return smooth(context, domain, Method::stanko, {mesh.position, mesh.normal}, &report->residual);
 }
 

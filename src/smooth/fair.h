@@ -29,6 +29,7 @@ struct FairMesh {
   Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
   Span<const uint8_t> bare = {};                // held, on a border, normal not known; empty: none
   Span<uint8_t> guarded = {};                   // out: of each patch, whether it was held back
+  Places places = {};                           // for the order of elimination
 };
 
 struct FairOptions {

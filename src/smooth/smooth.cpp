@@ -1,7 +1,6 @@
 #include "smooth/smooth.h"
 
 #include "mesh/curvature.h"
-#include "smooth/system.h"
 
 namespace wireskin::smooth {
 
@@ -148,7 +147,7 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
   row_weights(domain, uses_normals && domain.metric == Metric::space, guided.area.span(),
               guided.weight.span());
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
-  TRY(guided.system.prepare(laplacian, domain.held, order));
+  TRY(guided.system.prepare(laplacian, domain.held, order, domain.places));
   if (!uses_normals) {
     Array<double> penalty(context);
     TRY(penalties(domain, static_cast<int>(order), false, &penalty));

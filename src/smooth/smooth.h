@@ -18,6 +18,7 @@
 
 #include "mesh/operators.h"
 #include "smooth/soft.h"
+#include "smooth/system.h"
 
 namespace wireskin::smooth {
 
@@ -43,6 +44,7 @@ struct Domain {
   // Held vertices on open borders whose normal is not known (any value): that of the surface as far
   // as it is found stands for it. Empty: none.
   Span<const uint8_t> bare = {};
+  Places places = {};  // for the order of elimination
 };
 
 // Position and normal of every vertex: in, those of the held ones; out, all.

@@ -1,5 +1,6 @@
 #include "smooth/system.h"
 
+#include "sparse/nested_dissection.h"
 #include "sparse/ordering.h"
 #include "sparse/product.h"
 
@@ -39,13 +40,25 @@ static Status negative_part(const sparse::Csc& a, Span<const uint32_t> unknown, 
   return {};
 }
 
-Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order) {
+Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
+                       const Places& places) {
   laplacian_ = &laplacian;
   order_ = order;
-  analysed_ = false;
+  analysed_ = iterative_ = false;
   unknowns_ = 0;
   TRY(unknown_.resize(fixed.size()));
   for (size_t v = 0; v < fixed.size(); ++v) unknown_[v] = fixed[v] ? k_none : unknowns_++;
+  place_.clear();
+  patch_.clear();
+  if (!places.position.empty()) {
+    TRY(place_.reserve(unknowns_));
+    TRY(patch_.reserve(unknowns_));
+    for (size_t v = 0; v < fixed.size(); ++v) {
+      if (fixed[v]) continue;
+      place_.push_reserved(places.position[v]);
+      patch_.push_reserved(places.patch[v]);
+    }
+  }
   TRY(rhs_.resize(size_t{3} * unknowns_));
   TRY(solution_.resize(size_t{3} * unknowns_));
   return work_.resize(size_t{3} * unknowns_);
@@ -56,6 +69,79 @@ void System::add_penalties() {
   for (size_t v = 0; v < penalty_.size(); ++v) {
     if (unknown_[v] != k_none) matrix_.value[matrix_.start[unknown_[v]]] += penalty_[v];
   }
+}
+
+Status System::find_order(const sparse::Csc& matrix, Array<uint32_t>* order) const {
+  if (place_.empty()) return sparse::minimum_degree(matrix, order);
+  return sparse::nested_dissection(matrix, {{}, place_.span(), patch_.span()}, order);
+}
+
+// Finds the order of elimination and the structure of the factor, and whether that fits.
+Status System::analyse() {
+  Context& context = weight_.context();
+  {
+    Array<uint32_t> order(context);
+    TRY(find_order(matrix_, &order));
+    TRY(factor_.analyse(matrix_, order.span()));
+  }
+  if (order_ == Order::two && factor_.factor_bytes() > context.room_bytes()) {
+    TRY(prepare_iteration());
+  }
+  place_.free();
+  patch_.free();
+  analysed_ = true;
+  return {};
+}
+
+// The factor of -L_ff, which no weights change.
+Status System::prepare_iteration() {
+  Context& context = weight_.context();
+  sparse::Csc part(context);
+  Array<uint32_t> order(context);
+  factor_ = sparse::Cholesky(context);
+  TRY(negative_part(*laplacian_, unknown_.span(), unknowns_, &part));
+  TRY(find_order(part, &order));
+  TRY(factor_.analyse(part, order.span()));
+  order.free();
+  iterative_ = true;
+  return factor_.factor(part);
+}
+
+// y = (L_ff W L_ff)^-1 x.
+Status System::apply_laplacian_pair(void* self, Span<const double> x, Span<double> y) {
+  System& system = *static_cast<System*>(self);
+  for (size_t i = 0; i < x.size(); ++i) y[i] = x[i];
+  TRY(system.factor_.solve(y, 1));
+  for (size_t v = 0; v < system.weight_.size(); ++v) {
+    const uint32_t i = system.unknown_[v];
+    if (i != k_none && system.weight_[v] > 0.0) y[i] /= system.weight_[v];
+  }
+  return system.factor_.solve(y, 1);
+}
+
+// Solves for the three right-hand sides one after the other.
+Status System::iterate() {
+  const sparse::CgOptions options = {1e-11, 2000};
+  Context& context = weight_.context();
+  Array<double> b(context), x(context);
+  TRY(b.resize(unknowns_));
+  TRY(x.resize(unknowns_));
+  for (size_t c = 0; c < 3; ++c) {
+    for (size_t i = 0; i < unknowns_; ++i) {
+      b[i] = rhs_[3 * i + c];
+      x[i] = 0.0;
+    }
+    sparse::CgResult result;
+    TRY(sparse::conjugate_gradients(context, sparse::symmetric_operator(matrix_),
+                                    {&apply_laplacian_pair, this}, b.span(), x.span(), options,
+                                    &result));
+    context.count_iterations(result.iterations);
+    if (!(result.residual <= 1e-6)) {
+      return fail(Code::memory_cap, "the memory cap leaves no room for the factor of the system");
+    }
+    for (size_t i = 0; i < unknowns_; ++i) solution_[3 * i + c] = x[i];
+  }
+  return {};
 }
 
 Status System::factor(Span<const double> weight, Span<const double> penalty) {
@@ -87,11 +173,9 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
   add_penalties();
   TRY(context.enter(Stage::factor));
   if (!analysed_) {
-    Array<uint32_t> order(context);
-    TRY(sparse::minimum_degree(matrix_, &order));
-    TRY(factor_.analyse(matrix_, order.span()));
-    analysed_ = true;
+    TRY(analyse());
   }
+  if (iterative_) return {};
   Status factored = factor_.factor(matrix_);
   factored.place = {};  // a column of ours means nothing to the caller
   return factored;
@@ -161,11 +245,15 @@ Status System::solve(Span<const Vec3> target, Span<const Vec3> anchor, Span<Vec3
     row[1] += penalty_[v] * anchor[v].y;
     row[2] += penalty_[v] * anchor[v].z;
   }
-  TRY(solution_.copy(rhs_.span()));
-  TRY(factor_.solve(solution_.span(), 3));
+  if (iterative_) {
+    TRY(iterate());
+  } else {
+    TRY(solution_.copy(rhs_.span()));
+    TRY(factor_.solve(solution_.span(), 3));
+  }
   *residual = residual_of(work_.span());
   constexpr double k_good = 1e-12;
-  if (*residual > k_good) {  // one step of iterative refinement
+  if (!iterative_ && *residual > k_good) {  // one step of iterative refinement
     TRY(factor_.solve(work_.span(), 3));
     for (size_t i = 0; i < work_.size(); ++i) solution_[i] += work_[i];
     *residual = residual_of(work_.span());

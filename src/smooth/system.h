@@ -6,23 +6,32 @@
 // minimises the Dirichlet energy of W L v, with L W (-L) W L (targets zero). L is the integrated
 // cotangent Laplacian, w the inverse vertex areas; a weight of zero leaves a row out. K is positive
 // definite when every component holds a vertex and the free rows stay in. One factor serves any
-// number of right-hand sides; new weights keep the ordering and the symbolic analysis. Cost: see
+// number of right-hand sides; new weights keep the ordering and the symbolic analysis. Where the
+// factor of K would not fit under the memory cap, conjugate gradients take its place, with the
+// inverse of L_ff W^-1 L_ff as preconditioner: the factor of L_ff is a quarter of K's. Cost: see
 // sparse/cholesky.h. Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform
 // Modeling", 2004.
 #pragma once
 
 #include "num/vec.h"
-#include "sparse/cholesky.h"
-#include "sparse/csc.h"
+#include "sparse/conjugate_gradients.h"
 
 namespace wireskin::smooth {
 
 enum class Order { one = 1, two = 2, three = 3 };
 
+// Roughly where each vertex stands in space, and its patch (any of several); or nothing.
+struct Places {
+  Span<const Vec3> position;
+  Span<const uint32_t> patch;
+};
+
 class System {
  public:
   explicit System(Context& context)
-      : unknown_(context),
+      : place_(context),
+        patch_(context),
+        unknown_(context),
         matrix_(context),
         factor_(context),
         weight_(context),
@@ -31,8 +40,10 @@ class System {
         solution_(context),
         work_(context) {}
 
-  // `laplacian` must outlive the system. Numbers the unknowns.
-  Status prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order);
+  // `laplacian` must outlive the system. Numbers the unknowns. Where the vertices stand decides
+  // nothing but the order of elimination; without it that is general and slower.
+  Status prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
+                 const Places& places = {});
   // Assembles and factors with these row weights, and a penalty for each vertex (empty: none); may
   // be called again.
   Status factor(Span<const double> weight, Span<const double> penalty);
@@ -46,12 +57,20 @@ class System {
   Status right_hand_side(Span<const Vec3> target, Span<const Vec3> value);
   void store_right_hand_side(Span<const Vec3> values);
   void add_penalties();
+  Status find_order(const sparse::Csc& matrix, Array<uint32_t>* order) const;
+  Status analyse();
+  Status prepare_iteration();
+  Status iterate();
+  static Status apply_laplacian_pair(void* self, Span<const double> x, Span<double> y);
   double residual_of(Span<double> residual) const;
 
   const sparse::Csc* laplacian_ = nullptr;
   Order order_ = Order::two;
   bool analysed_ = false;
+  bool iterative_ = false;  // factor_ is that of -L_ff
   uint32_t unknowns_ = 0;
+  Array<Vec3> place_;  // of each unknown until the order is found, or empty
+  Array<uint32_t> patch_;
   Array<uint32_t> unknown_;  // number of each vertex among the unknowns, k_none where held
   sparse::Csc matrix_;
   sparse::Cholesky factor_;

@@ -1,40 +1,23 @@
 #include "sparse/cholesky.h"
 
-#include <cfloat>
-#include <cmath>
-
-#include "sparse/dense.h"
 #include "sparse/elimination_tree.h"
 
 namespace wireskin::sparse {
 
 static constexpr const char* k_no_permutation = "the elimination order is not a permutation";
 
-Cholesky::Cholesky(Context& context)
+Cholesky::Cholesky(Context& context, Instructions instructions)
     : context_(&context),
+      kernels_(dense_kernels(instructions)),
       order_(context),
       lower_(context),
       supernodes_(context),
+      fronts_(context),
       value_(context),
-      waiting_(context),
-      next_(context),
-      used_(context),
-      position_(context),
-      relative_(context),
+      workspace_(context),
+      scratch_(context),
       permuted_(context),
       tail_(context) {}
-
-Status Cholesky::count_work(size_t work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 22;
-  work_ += work;
-  if (work_ < k_work_per_checkpoint) return {};
-  work_ = 0;
-  return context_->checkpoint();
-}
-
-Status Cholesky::count_solve(uint32_t s, uint32_t columns) {
-  return count_work(size_t{supernodes_.height(s)} * supernodes_.width(s) * columns);
-}
 
 static void invert_order(Span<const uint32_t> order, Span<uint32_t> position) {
   for (uint32_t k = 0; k < order.size(); ++k) position[order[k]] = k;
@@ -63,17 +46,20 @@ static Status order_by_tree(const Csc& lower, Array<uint32_t>* order, Array<uint
   return {};
 }
 
-Status Cholesky::allocate_workspace(size_t entries) {
-  uint32_t tallest = 0;
+// Replaces the rows of the permuted pattern by their places in the panels.
+Status Cholesky::locate_entries() {
+  Array<uint32_t> position(*context_);
+  TRY(position.resize(n_));
   for (uint32_t s = 0; s < supernodes_.count; ++s) {
-    if (supernodes_.height(s) > tallest) tallest = supernodes_.height(s);
+    const uint32_t* rows = supernodes_.rows(s);
+    TRY(checkpoint_at_column(*context_, s));
+    for (uint32_t r = 0; r < supernodes_.height(s); ++r) position[rows[r]] = r;
+    const uint32_t end = lower_.start[supernodes_.first[s + 1]];
+    for (uint32_t k = lower_.start[supernodes_.first[s]]; k < end; ++k) {
+      lower_.index[k] = position[lower_.index[k]];
+    }
   }
-  TRY(relative_.resize(tallest));
-  TRY(waiting_.resize(supernodes_.count));
-  TRY(next_.resize(supernodes_.count));
-  TRY(used_.resize(supernodes_.count));
-  TRY(position_.resize(n_));
-  return value_.resize(entries);
+  return {};
 }
 
 Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
@@ -96,110 +82,134 @@ Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
   TRY(column_counts(lower_, parent.span(), &count));
   TRY(context_->checkpoint());
   TRY(find_supernodes(lower_, parent.span(), count.span(), &supernodes_));
-  TRY(allocate_workspace(supernodes_.panel[supernodes_.count]));
+  TRY(plan_fronts(supernodes_, context_->is_parallel() ? Fronts::k_batch : 1, &fronts_));
+  TRY(locate_entries());
+  tallest_ = 0;
+  for (uint32_t s = 0; s < supernodes_.count; ++s) {
+    if (supernodes_.height(s) > tallest_) tallest_ = supernodes_.height(s);
+  }
   nonzeros_ = 0;
   for (const uint32_t c : count) nonzeros_ += c;
   analysed_ = true;
   return {};
 }
 
-// Clears the panel of `s` and adds the entries of the matrix.
-void Cholesky::assemble(uint32_t s, const double* source) {
-  const uint32_t height = supernodes_.height(s);
-  const uint32_t* rows = supernodes_.rows(s);
-  double* panel = value_.data() + supernodes_.panel[s];
-  std::memset(panel, 0, size_t{height} * supernodes_.width(s) * sizeof(double));
-  for (uint32_t r = 0; r < height; ++r) position_[rows[r]] = r;
-  for (uint32_t j = supernodes_.first[s]; j < supernodes_.first[s + 1]; ++j, panel += height) {
+// Threads that work side by side need scratch memory each; small systems are not divided.
+uint32_t Cholesky::slots() const {
+  constexpr double k_worth_dividing = 2e7;
+  return context_->is_parallel() && fronts_.work > k_worth_dividing ? Fronts::k_batch : 1;
+}
+
+size_t Cholesky::factor_bytes() const {
+  if (!analysed_) return 0;
+  const size_t numbers =
+      supernodes_.panel[supernodes_.count] + fronts_.workspace + slots() * k_update_scratch;
+  return numbers * sizeof(double);
+}
+
+Status Cholesky::allocate_workspace() {
+  TRY(value_.resize(supernodes_.panel[supernodes_.count]));
+  TRY(workspace_.resize(fronts_.workspace));
+  return scratch_.resize(slots() * k_update_scratch);
+}
+
+// Adds the update matrix of a child to the front of its parent.
+void Cholesky::add_child(uint32_t c, const Panel& panel) {
+  const uint32_t tail = supernodes_.height(c) - supernodes_.width(c);
+  const double* from = workspace_.data() + fronts_.update[c];
+  const Run* end = fronts_.run.data() + fronts_.run_start[c + 1];
+  for (const Run* run = fronts_.run.data() + fronts_.run_start[c]; run < end; ++run) {
+    for (uint32_t k = run->from; k < run->from + run->length; ++k) {
+      const double* column = from + size_t{k} * round_up_rows(tail);
+      const uint32_t to = run->to + (k - run->from);
+      if (to < panel.width) {
+        kernels_.add_runs(run, end, k, column, panel.value + size_t{to} * panel.step(), 0);
+      } else {
+        double* above = panel.update + size_t{to - panel.width} * round_up_rows(panel.tail());
+        kernels_.add_runs(run, end, k, column, above, panel.width);
+      }
+    }
+  }
+}
+
+// The front of `s`: entries of the matrix and updates of the children.
+Panel Cholesky::assemble(uint32_t s, const double* source) {
+  Panel panel = {value_.data() + supernodes_.panel[s], supernodes_.height(s), supernodes_.width(s),
+                 workspace_.data() + fronts_.update[s], fronts_.child[s] == k_none};
+  const size_t step = panel.step();
+  std::memset(panel.value, 0, (step * panel.width + k_panel_margin) * sizeof(double));
+  double* column = panel.value;
+  for (uint32_t j = supernodes_.first[s]; j < supernodes_.first[s + 1]; ++j, column += step) {
     for (uint32_t k = lower_.start[j]; k < lower_.start[j + 1]; ++k) {
-      panel[position_[lower_.index[k]]] = source[lower_.source[k]];
+      column[lower_.index[k]] = source[lower_.source[k]];
     }
   }
-}
-
-// Subtracts from the panel of `to` what the columns of `from` contribute to it: the products of the
-// unused rows of `from` with those of them that are columns of `to`.
-Status Cholesky::apply_update(uint32_t from, uint32_t to) {
-  constexpr uint32_t k_columns = 16;  // between two looks at the work done
-  const size_t height = supernodes_.height(from);
-  const uint32_t depth = supernodes_.width(from);
-  const uint32_t* rows = supernodes_.rows(from) + used_[from];
-  const uint32_t count = supernodes_.height(from) - used_[from];
-  uint32_t columns = 0;
-  while (columns < count && rows[columns] < supernodes_.first[to + 1]) ++columns;
-  for (uint32_t r = 0; r < count; ++r) relative_[r] = position_[rows[r]];
-
-  const double* source = value_.data() + supernodes_.panel[from] + used_[from];
-  const size_t target_height = supernodes_.height(to);
-  double* target = value_.data() + supernodes_.panel[to];
-  for (uint32_t first = 0; first < columns; first += k_columns) {
-    const Products products = {source + first, height, source + first, 1, height, depth};
-    const uint32_t* relative = relative_.data() + first;
-    const uint32_t width = columns - first < k_columns ? columns - first : k_columns;
-    for_lower_products(products, count - first, width, [=](uint32_t i, uint32_t j, double product) {
-      target[relative[i] + relative[j] * target_height] -= product;
-    });
-    TRY(count_work(size_t{count - first} * width * depth));
+  if (panel.first) return panel;
+  const uint32_t tail = panel.tail(), rows = round_up_rows(tail);
+  for (uint32_t k = 0; k < tail; ++k) {
+    const uint32_t top = k / 4 * 4;
+    std::memset(panel.update + size_t{k} * rows + top, 0, (rows - top) * sizeof(double));
   }
-  used_[from] += columns;
-  return {};
+  for (uint32_t c = fronts_.child[s]; c != k_none; c = fronts_.sibling[c]) add_child(c, panel);
+  return panel;
 }
 
-// A supernode waits where its first unused row is a column; after the last row it waits nowhere.
-void Cholesky::link(uint32_t s) {
-  if (used_[s] == supernodes_.height(s)) return;
-  const uint32_t to = supernodes_.of_column[supernodes_.rows(s)[used_[s]]];
-  next_[s] = waiting_[to];
-  waiting_[to] = s;
-}
+// A batch of tasks under way; bad_*: of each task, where it failed.
+struct Cholesky::Batch {
+  Cholesky* self;
+  const double* source;
+  uint32_t first_task;
+  uint32_t bad_supernode[Fronts::k_batch];
+  uint32_t bad_column[Fronts::k_batch];
+};
 
-Status Cholesky::apply_updates(uint32_t s) {
-  for (uint32_t from = waiting_[s]; from != k_none;) {
-    const uint32_t after = next_[from];
-    TRY(apply_update(from, s));
-    link(from);
-    from = after;
+void Cholesky::factor_task(uint32_t index, void* data) {
+  Batch& batch = *static_cast<Batch*>(data);
+  Cholesky& self = *batch.self;
+  const Task& task = self.fronts_.task[batch.first_task + index];
+  const uint32_t slot = self.context_->is_parallel() ? index % self.slots() : 0;
+  const PanelTools tools = {&self.kernels_, self.scratch_.data() + slot * k_update_scratch, 1};
+  batch.bad_column[index] = k_none;
+  for (uint32_t s = task.first; s <= task.root && batch.bad_column[index] == k_none; ++s) {
+    batch.bad_supernode[index] = s;
+    batch.bad_column[index] = factor_panel(tools, self.assemble(s, batch.source));
   }
-  return {};
 }
 
-// Factors `count` columns of a panel, from `first` on, that have taken all updates from their left.
-// Returns the first column with a bad pivot, or k_none.
-static uint32_t factor_columns(double* panel, uint32_t height, uint32_t first, uint32_t count) {
-  for (uint32_t j = first; j < first + count; ++j) {
-    double* column = panel + size_t{j} * height;
-    for (uint32_t k = first; k < j; ++k) {
-      const double* left = panel + size_t{k} * height;
-      const double factor = left[j];
-      for (uint32_t i = j; i < height; ++i) column[i] -= left[i] * factor;
+Status Cholesky::refuse_column(uint32_t s, uint32_t column) const {
+  Place place;
+  place.vertex = order_[supernodes_.first[s] + column];
+  return fail(Code::not_positive_definite, "the matrix is not positive definite", place);
+}
+
+Status Cholesky::factor_step(const Step& step, const double* source) {
+  Batch batch = {};
+  batch.self = this;
+  batch.source = source;
+  const bool divided = slots() > 1;
+  for (uint32_t first = step.first_task; first < step.end_task;) {
+    // One by one there is a checkpoint after each task.
+    const uint32_t count = divided ? step.end_task - first : 1;
+    batch.first_task = first;
+    if (divided) {
+      context_->for_each(count, &factor_task, &batch);
+    } else {
+      factor_task(0, &batch);
     }
-    if (!(column[j] > 0.0 && column[j] <= DBL_MAX)) return j;
-    const double pivot = std::sqrt(column[j]);
-    column[j] = pivot;
-    for (uint32_t i = j + 1; i < height; ++i) column[i] /= pivot;
-  }
-  return k_none;
-}
-
-// The dense factorisation of a complete panel, a few columns at a time.
-Status Cholesky::factor_panel(uint32_t s) {
-  constexpr uint32_t k_block = 4;
-  const uint32_t height = supernodes_.height(s), width = supernodes_.width(s);
-  double* panel = value_.data() + supernodes_.panel[s];
-  for (uint32_t first = 0; first < width; first += k_block) {
-    const uint32_t count = width - first < k_block ? width - first : k_block;
-    double* target = panel + size_t{first} * height + first;
-    const Products products = {panel + first, height, panel + first, 1, height, first};
-    for_lower_products(
-        products, height - first, count,
-        [=](uint32_t i, uint32_t j, double product) { target[i + size_t{j} * height] -= product; });
-    const uint32_t bad = factor_columns(panel, height, first, count);
-    if (bad != k_none) {
-      Place place;
-      place.vertex = order_[supernodes_.first[s] + bad];
-      return fail(Code::not_positive_definite, "the matrix is not positive definite", place);
+    for (uint32_t t = 0; t < count; ++t) {
+      if (batch.bad_column[t] != k_none) {
+        return refuse_column(batch.bad_supernode[t], batch.bad_column[t]);
+      }
     }
-    TRY(count_work(size_t{height} * count * (first + count)));
+    first += count;
+    TRY(context_->checkpoint());
+  }
+  const PanelTools tools = {&kernels_, scratch_.data(), slots()};
+  for (uint32_t u = step.first_upper; u < step.end_upper; ++u) {
+    const uint32_t s = fronts_.upper[u];
+    uint32_t bad = k_none;
+    TRY(factor_panel_in_parts(*context_, tools, assemble(s, source), &bad));
+    if (bad != k_none) return refuse_column(s, bad);
   }
   return {};
 }
@@ -210,90 +220,126 @@ Status Cholesky::factor(const Csc& lower) {
   if (!analysed_ || lower.cols != n_ || lower.value.size() != lower_.source.size()) {
     return fail(Code::bad_argument, "the matrix has not the pattern that was analysed");
   }
-  for (uint32_t& w : waiting_) w = k_none;
-  for (uint32_t s = 0; s < supernodes_.count; ++s) {
-    assemble(s, lower.value.data());
-    TRY(apply_updates(s));
-    TRY(factor_panel(s));
-    used_[s] = supernodes_.width(s);
-    link(s);
-  }
+  TRY(allocate_workspace());
+  for (const Step& step : fronts_.step) TRY(factor_step(step, lower.value.data()));
   factored_ = true;
   return {};
 }
 
-// y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S.
-void Cholesky::solve_forward(uint32_t s, uint32_t columns) {
-  const uint32_t height = supernodes_.height(s), width = supernodes_.width(s);
-  const uint32_t* rows = supernodes_.rows(s);
-  const double* panel = value_.data() + supernodes_.panel[s];
-  double* y = permuted_.data();
-  double* own = y + size_t{supernodes_.first[s]} * columns;
-  for (uint32_t j = 0; j < width; ++j) {
-    const double* column = panel + size_t{j} * height;
-    double* yj = own + size_t{j} * columns;
-    for (uint32_t c = 0; c < columns; ++c) yj[c] /= column[j];
-    for (uint32_t i = j + 1; i < width; ++i) {
-      double* yi = own + size_t{i} * columns;
-      for (uint32_t c = 0; c < columns; ++c) yi[c] -= column[i] * yj[c];
+// The lanes of a right-hand side that stand side by side: a row of the solution.
+static DiagonalBlock triangle_at(const double* at, size_t step, uint32_t columns, bool backward) {
+  DiagonalBlock d;
+  d.columns = columns;
+  for (uint32_t j = 0; j < columns; ++j) {
+    const uint32_t to = backward ? columns - 1 - j : j;
+    d.inverse[to] = 1.0 / at[j + j * step];
+    for (uint32_t i = j + 1; i < columns; ++i) {
+      if (backward) {
+        d.entry[to][columns - 1 - i] = at[i + j * step];
+      } else {
+        d.entry[i][j] = at[i + j * step];
+      }
     }
   }
-  const Products products = {panel + width, height, own, 1, columns, width};
-  for_products(products, height - width, columns, [=](uint32_t i, uint32_t c, double product) {
-    y[size_t{rows[width + i]} * columns + c] -= product;
-  });
+  return d;
 }
 
-void Cholesky::gather_tail(uint32_t s, uint32_t columns) {
-  const uint32_t height = supernodes_.height(s);
-  double* to = tail_.data();
-  for (uint32_t r = supernodes_.width(s); r < height; ++r, to += columns) {
-    const double* from = permuted_.data() + size_t{supernodes_.rows(s)[r]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
+// y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S. Transposed, a row of y is a column.
+void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
+  constexpr uint32_t k_block = DiagonalBlock::k_size;
+  const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
+  const size_t step = supernodes_.column_step(s);
+  const double* panel = value_.data() + supernodes_.panel[s];
+  double* own = permuted_.data() + size_t{supernodes_.first[s]} * lanes;
+  for (uint32_t j = 0; j < width; j += k_block) {
+    const uint32_t columns = width - j < k_block ? width - j : k_block;
+    double* x = own + size_t{j} * lanes;
+    if (j > 0) {
+      kernels_.update({lanes, columns, j, own, lanes, panel + j, 1, step, x, lanes, false, false},
+                      scratch_.data());
+    }
+    kernels_.solve_block(triangle_at(panel + j * step + j, step, columns, false), lanes, x, lanes);
+  }
+  if (tail == 0) return;
+  const uint32_t* rows = supernodes_.rows(s) + width;
+  double* y = permuted_.data();
+  double* below = tail_.data();
+  const size_t bytes = lanes * sizeof(double);
+  for (uint32_t r = 0; r < tail; ++r) {
+    std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, bytes);
+  }
+  kernels_.update(
+      {lanes, tail, width, own, lanes, panel + width, 1, step, below, lanes, false, false},
+      scratch_.data());
+  for (uint32_t r = 0; r < tail; ++r) {
+    std::memcpy(y + size_t{rows[r]} * lanes, below + size_t{r} * lanes, bytes);
   }
 }
 
 // y_S loses L_TS^T y_T, then y_S := L_SS^-T y_S.
-void Cholesky::solve_backward(uint32_t s, uint32_t columns) {
-  const uint32_t height = supernodes_.height(s), width = supernodes_.width(s);
+void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
+  constexpr uint32_t k_block = DiagonalBlock::k_size;
+  const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
+  const size_t step = supernodes_.column_step(s);
   const double* panel = value_.data() + supernodes_.panel[s];
-  double* own = permuted_.data() + size_t{supernodes_.first[s]} * columns;
-  gather_tail(s, columns);
-  const Products products = {tail_.data(), columns, panel + width, height, 1, height - width};
-  for_products(products, columns, width, [=](uint32_t c, uint32_t j, double product) {
-    own[size_t{j} * columns + c] -= product;
-  });
-  for (uint32_t j = width; j-- > 0;) {
-    const double* column = panel + size_t{j} * height;
-    double* yj = own + size_t{j} * columns;
-    for (uint32_t i = j + 1; i < width; ++i) {
-      const double* yi = own + size_t{i} * columns;
-      for (uint32_t c = 0; c < columns; ++c) yj[c] -= column[i] * yi[c];
+  double* own = permuted_.data() + size_t{supernodes_.first[s]} * lanes;
+  if (tail > 0) {
+    const uint32_t* rows = supernodes_.rows(s) + width;
+    double* below = tail_.data();
+    for (uint32_t r = 0; r < tail; ++r) {
+      std::memcpy(below + size_t{r} * lanes, permuted_.data() + size_t{rows[r]} * lanes,
+                  lanes * sizeof(double));
     }
-    for (uint32_t c = 0; c < columns; ++c) yj[c] /= column[j];
+    kernels_.update(
+        {lanes, width, tail, below, lanes, panel + width, step, 1, own, lanes, false, false},
+        scratch_.data());
   }
+  for (uint32_t j = (width - 1) / k_block * k_block + k_block; j > 0;) {
+    j -= k_block;
+    const uint32_t columns = width - j < k_block ? width - j : k_block;
+    const uint32_t after = j + columns;
+    double* x = own + size_t{j} * lanes;
+    if (after < width) {
+      kernels_.update({lanes, columns, width - after, own + size_t{after} * lanes, lanes,
+                       panel + j * step + after, step, 1, x, lanes, false, false},
+                      scratch_.data());
+    }
+    kernels_.solve_block(triangle_at(panel + j * step + j, step, columns, true), lanes,
+                         x + size_t{columns - 1} * lanes, -static_cast<ptrdiff_t>(lanes));
+  }
+}
+
+Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
+  constexpr size_t k_work_per_checkpoint = size_t{1} << 24;
+  *work += size_t{supernodes_.height(s)} * supernodes_.width(s) * lanes;
+  if (*work < k_work_per_checkpoint) return {};
+  *work = 0;
+  return context_->checkpoint();
 }
 
 Status Cholesky::solve(Span<double> x, uint32_t columns) {
   if (!factored_) return fail(Code::bad_argument, "there is no factor to solve with");
   WIRESKIN_ASSERT(x.size() == size_t{n_} * columns);
-  TRY(permuted_.resize(size_t{n_} * columns));
-  TRY(tail_.resize(relative_.size() * columns));
+  const uint32_t lanes = round_up_rows(columns);
+  TRY(permuted_.resize(size_t{n_} * lanes));
+  TRY(tail_.resize(size_t{tallest_} * lanes));
   for (uint32_t k = 0; k < n_; ++k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) permuted_[size_t{k} * columns + c] = from[c];
+    double* to = permuted_.data() + size_t{k} * lanes;
+    for (uint32_t c = 0; c < lanes; ++c) to[c] = c < columns ? from[c] : 0.0;
   }
+  size_t work = 0;
   for (uint32_t s = 0; s < supernodes_.count; ++s) {
-    solve_forward(s, columns);
-    TRY(count_solve(s, columns));
+    solve_forward(s, lanes);
+    TRY(count_solve(s, lanes, &work));
   }
   for (uint32_t s = supernodes_.count; s-- > 0;) {
-    solve_backward(s, columns);
-    TRY(count_solve(s, columns));
+    solve_backward(s, lanes);
+    TRY(count_solve(s, lanes, &work));
   }
   for (uint32_t k = 0; k < n_; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = permuted_[size_t{k} * columns + c];
+    for (uint32_t c = 0; c < columns; ++c) to[c] = permuted_[size_t{k} * lanes + c];
   }
   return {};
 }

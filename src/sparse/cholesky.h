@@ -1,27 +1,33 @@
 // Cholesky factorisation of a sparse symmetric positive definite matrix, P A P^T = L L^T, in three
 // steps: analyse the pattern once, factor as often as the values change, solve as often as there
-// are right-hand sides. Supernodal and left-looking: each panel collects the updates of the panels
-// to its left and is then factored as a dense matrix.
+// are right-hand sides. Multifrontal: each supernode is assembled from the matrix and from the
+// update matrices of its children, and factored as a dense panel.
 //
 // Invariants: a failed analyse() or factor() leaves no factor behind, and solve() then says so. The
 // same input gives the same bits, for a first factor() and a repeated one, for one right-hand side
-// and for many. Memory: the panels, 2 words per entry of the matrix, about 8 per column; factor()
-// allocates none.
+// and for many, for every instruction set and any number of threads. Memory: factor_bytes(), which
+// the first factor() allocates and later ones use again, 2 words per entry of the matrix, about 8
+// per column.
 //
-// Source: Esmond Ng, Barry Peyton, "Block Sparse Cholesky Algorithms on Advanced Uniprocessor
-// Computers", 1993.
+// Sources: Iain Duff, John Reid, "The Multifrontal Solution of Indefinite Sparse Symmetric Linear
+// Equations", 1983; Esmond Ng, Barry Peyton, "Block Sparse Cholesky Algorithms on Advanced
+// Uniprocessor Computers", 1993.
 #pragma once
 
-#include "sparse/supernodes.h"
+#include "sparse/fronts.h"
+#include "sparse/panel.h"
 
 namespace wireskin::sparse {
 
 class Cholesky {
  public:
-  explicit Cholesky(Context& context);
+  explicit Cholesky(Context& context, Instructions instructions = best_instructions());
 
   // Reads the pattern of the lower triangle; order[k] is the column to be eliminated k-th.
   Status analyse(const Csc& lower, Span<const uint32_t> order);
+
+  // What the numerical factor will need beside the analysis, known after analyse().
+  size_t factor_bytes() const;
 
   // Reads the values of a matrix with the pattern analysed. A pivot that is not positive and finite
   // is `not_positive_definite`, place.vertex its column.
@@ -32,41 +38,40 @@ class Cholesky {
 
   // Entries of the factor, without the zeros that the panels add.
   size_t nonzeros() const { return nonzeros_; }
+  double multiplications() const { return fronts_.work; }
   uint32_t size() const { return n_; }
 
  private:
-  Status allocate_workspace(size_t entries);
-  void assemble(uint32_t s, const double* source);
-  Status apply_update(uint32_t from, uint32_t to);
-  Status apply_updates(uint32_t s);
-  Status factor_panel(uint32_t s);
-  void link(uint32_t s);
-  void solve_forward(uint32_t s, uint32_t columns);
-  void solve_backward(uint32_t s, uint32_t columns);
-  void gather_tail(uint32_t s, uint32_t columns);
-  Status count_work(size_t work);
-  Status count_solve(uint32_t s, uint32_t columns);
+  struct Batch;
+
+  uint32_t slots() const;
+  Status allocate_workspace();
+  Status locate_entries();
+  Panel assemble(uint32_t s, const double* source);
+  void add_child(uint32_t c, const Panel& panel);
+  static void factor_task(uint32_t index, void* batch);
+  Status factor_step(const Step& step, const double* source);
+  Status refuse_column(uint32_t s, uint32_t column) const;
+  void solve_forward(uint32_t s, uint32_t lanes);
+  void solve_backward(uint32_t s, uint32_t lanes);
+  Status count_solve(uint32_t s, uint32_t lanes, size_t* work);
 
   Context* context_;
+  DenseKernels kernels_;
   uint32_t n_ = 0;
+  uint32_t tallest_ = 0;  // rows of a panel, at most
   size_t nonzeros_ = 0;
   bool analysed_ = false;
   bool factored_ = false;
-  size_t work_ = 0;  // multiplications since the last checkpoint
   Array<uint32_t> order_;
-  Pattern lower_;  // the permuted matrix, column by column
+  Pattern lower_;  // the permuted matrix, column by column; index: the row's place in its panel
   Supernodes supernodes_;
-  Array<double> value_;
-
-  // A supernode waits in the list of the supernode that its next unused row belongs to.
-  Array<uint32_t> waiting_;
-  Array<uint32_t> next_;
-  Array<uint32_t> used_;      // rows of a supernode that have been used
-  Array<uint32_t> position_;  // of a row in the panel under construction
-  Array<uint32_t> relative_;  // positions of the rows of one update
-
-  Array<double> permuted_;  // the right-hand sides in elimination order
-  Array<double> tail_;      // those of the rows below one supernode
+  Fronts fronts_;
+  Array<double> value_;      // the panels
+  Array<double> workspace_;  // the update matrices
+  Array<double> scratch_;    // of the kernels, for each thread
+  Array<double> permuted_;   // the right-hand sides in elimination order
+  Array<double> tail_;       // those of the rows below one supernode
 };
 
 }  // namespace wireskin::sparse

@@ -1,65 +1,82 @@
-// The dense inner product kernel under the sparse factorisation and the triangular solves.
+// The dense arithmetic under the sparse factorisation and the triangular solves: subtracting
+// products, solving with a small triangle, adding an update to a front. Written once
+// (dense_kernels.inc) and compiled for several instruction sets; the processor decides at run time.
 //
-// product(i, j) = sum over k of a[i + k * a_step] * b[j * b_out + k * b_step], k ascending from
-// zero. Tiles of 4 x 4 products are formed side by side: a tile only shares loads, each sum keeps
-// its order, so the bits do not depend on the tiling, on the compiler's vectors or on how many
-// columns are asked for at once.
+// Invariants: all instruction sets, tilings and blockings give the same bits: every output takes
+// its terms one after the other in ascending order, multiplied and then subtracted, never fused,
+// and vectors stand across outputs. Matrices are stored column by column; rows come in multiples of
+// four, and those that pad a matrix are read and written like any other. Source of the blocking:
+// K. Goto, R. van de Geijn, "Anatomy of High-Performance Matrix Multiplication", 2008.
 #pragma once
 
 #include "base/array.h"
 
 namespace wireskin::sparse {
 
-struct Products {
-  const double* a;  // the i-th output begins at a + i
+// C -= A B^T, or C = -A B^T: entry (i, j) of C loses the sum over k < depth of
+// a[i + k * a_step] * b[j * b_out + k * b_step].
+struct Update {
+  uint32_t rows;  // a multiple of four
+  uint32_t columns;
+  uint32_t depth;
+  const double* a;
   size_t a_step;
   const double* b;
   size_t b_out;
   size_t b_step;
-  uint32_t depth;  // terms in each sum
+  double* c;
+  size_t c_step;
+  bool lower;      // entries above the diagonal are not needed
+  bool overwrite;  // C counts as zero
 };
 
-// Hands the products of the rows i .. i + Rows and columns j .. j + Columns to subtract(i, j,
-// product).
-template <uint32_t Rows, uint32_t Columns, typename Subtract>
-void product_tile(const Products& p, uint32_t i, uint32_t j, const Subtract& subtract) {
-  double sum[Columns][Rows] = {};
-  const double* a = p.a + i;
-  const double* b = p.b + j * p.b_out;
-  for (uint32_t k = 0; k < p.depth; ++k, a += p.a_step, b += p.b_step) {
-    for (uint32_t c = 0; c < Columns; ++c) {
-      const double factor = b[c * p.b_out];
-      for (uint32_t r = 0; r < Rows; ++r) sum[c][r] += a[r] * factor;
-    }
-  }
-  for (uint32_t c = 0; c < Columns; ++c) {
-    for (uint32_t r = 0; r < Rows; ++r) subtract(i + r, j + c, sum[c][r]);
-  }
+// A lower triangle of at most eight columns: entries below the diagonal, inverses on it.
+struct DiagonalBlock {
+  static constexpr uint32_t k_size = 8;
+  uint32_t columns;
+  double entry[k_size][k_size];  // [row][column]
+  double inverse[k_size];
+};
+
+// `length` consecutive rows, `from` on in an update, are rows `to` on of the front above.
+struct Run {
+  uint32_t from;
+  uint32_t to;
+  uint32_t length;
+};
+
+// A block of the large updates: columns of B, then rows of A, in the scratch memory.
+inline constexpr uint32_t k_block_columns = 128;
+inline constexpr uint32_t k_block_rows = 96;
+inline constexpr uint32_t k_block_depth = 256;
+inline constexpr size_t k_update_scratch = size_t{k_block_depth} * (k_block_columns + k_block_rows);
+
+// Whether update() needs its scratch memory of k_update_scratch numbers for this shape.
+inline bool needs_scratch(uint32_t rows, uint32_t depth) {
+  return depth > 24 && rows >= 96;
 }
 
-template <uint32_t Columns, typename Subtract>
-void product_strip(const Products& p, uint32_t first_row, uint32_t rows, uint32_t j,
-                   const Subtract& subtract) {
-  uint32_t i = first_row;
-  for (; i + 4 <= rows; i += 4) product_tile<4, Columns>(p, i, j, subtract);
-  for (; i < rows; ++i) product_tile<1, Columns>(p, i, j, subtract);
-}
+struct DenseKernels {
+  void (*update)(const Update& update, double* scratch);
+  // x := x L^-T for rows of length `columns`, whose columns stand `step` apart.
+  void (*solve_block)(const DiagonalBlock& block, uint32_t rows, double* x, ptrdiff_t step);
+  // Adds the rows k and below of an update's column, `from` its row 0, to a column of the front
+  // whose first row is row `shift`. Row k is in the first run.
+  void (*add_runs)(const Run* run, const Run* end, uint32_t k, const double* from, double* to,
+                   uint32_t shift);
+};
 
-// All products of `rows` x `columns`.
-template <typename Subtract>
-void for_products(const Products& p, uint32_t rows, uint32_t columns, const Subtract& subtract) {
-  uint32_t j = 0;
-  for (; j + 4 <= columns; j += 4) product_strip<4>(p, 0, rows, j, subtract);
-  for (; j < columns; ++j) product_strip<1>(p, 0, rows, j, subtract);
-}
+enum class Instructions { baseline, avx2, avx512 };
 
-// The products on and below the diagonal, and some of those above it.
-template <typename Subtract>
-void for_lower_products(const Products& p, uint32_t rows, uint32_t columns,
-                        const Subtract& subtract) {
-  uint32_t j = 0;
-  for (; j + 4 <= columns; j += 4) product_strip<4>(p, j, rows, j, subtract);
-  for (; j < columns; ++j) product_strip<1>(p, j, rows, j, subtract);
+// Asks the processor and the operating system; the answer is not kept anywhere.
+bool has_instructions(Instructions instructions);
+Instructions best_instructions();
+
+// The set must be one that the processor has.
+DenseKernels dense_kernels(Instructions instructions);
+
+inline uint32_t round_up_rows(uint32_t rows) {
+  return (rows + 3) / 4 * 4;
 }
 
 }  // namespace wireskin::sparse

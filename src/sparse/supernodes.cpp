@@ -70,8 +70,9 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
     result->first[s] = block.first;
     result->row_start[s] = static_cast<uint32_t>(rows);
     result->panel[s] = static_cast<uint32_t>(values);
-    rows += uint64_t{block.width} + block.tail;
-    values += (uint64_t{block.width} + block.tail) * block.width;
+    const uint32_t height = block.width + block.tail;
+    rows += height;
+    values += uint64_t{round_up_rows(height)} * block.width + k_panel_margin;
     if (rows >= k_none || values >= k_none) {
       return fail(Code::too_large, "the factor is too large for 32-bit indices");
     }

@@ -4,17 +4,22 @@
 // In: a permuted pattern in postorder, its elimination tree and column counts. Besides the columns
 // that share their rows exactly, a supernode takes in its last child where that stores few zeros,
 // or where both are so narrow that longer panels pay for them. Invariants: the rows of supernode s
-// are ascending and begin with its own columns, first[s] .. first[s + 1]; its panel of (rows x
-// columns) values begins at panel[s], column by column. A panel's values above the diagonal mean
-// nothing. Cost: linear in the entries and the rows listed, besides sorting each list.
+// are ascending and begin with its own columns, first[s] .. first[s + 1]; its panel of values
+// begins at panel[s], column by column, each with as many rows as round_up_rows() says, and a
+// margin behind the last. A panel's values above the diagonal and in the padding mean nothing.
+// Cost: linear in the entries and the rows listed, besides sorting each list.
 //
 // Source: Cleve Ashcraft, Roger Grimes, "The Influence of Relaxed Supernode Partitions on the
 // Multifrontal Method", 1989.
 #pragma once
 
 #include "sparse/csc.h"
+#include "sparse/dense.h"
 
 namespace wireskin::sparse {
+
+// Kernels that start at any row of the last column may read beyond it.
+inline constexpr uint32_t k_panel_margin = 4;
 
 struct Supernodes {
   uint32_t count = 0;
@@ -28,6 +33,7 @@ struct Supernodes {
 
   uint32_t width(uint32_t s) const { return first[s + 1] - first[s]; }
   uint32_t height(uint32_t s) const { return row_start[s + 1] - row_start[s]; }
+  uint32_t column_step(uint32_t s) const { return round_up_rows(height(s)); }
   const uint32_t* rows(uint32_t s) const { return row.data() + row_start[s]; }
 };
 

@@ -53,6 +53,7 @@ struct Workpiece {
   Span<uint32_t> triangle;
   Span<const uint8_t> on_curve, held, on_border, bare;
   smooth::Soft soft;
+  Span<const Vec3> place;
 };
 
 }  // namespace
@@ -60,9 +61,14 @@ struct Workpiece {
 static Status apply_method(Context& context, const Start& start, const Workpiece& piece,
                            smooth::Method method, Surface* surface) {
   Counts* counts = &surface->counts;
+  Array<uint32_t> vertex_patch(context);
+  TRY(vertex_patch.assign(piece.position.size(), 0));
+  mesh::patches_of_vertices(piece.triangle, surface->patch.span(), vertex_patch.span());
+  const smooth::Places places = {piece.place, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
-    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
-                                   piece.on_border, start.metric, piece.soft,     piece.bare};
+    const smooth::Domain domain = {piece.triangle, start.shape,     piece.on_curve,
+                                   piece.held,     piece.on_border, start.metric,
+                                   piece.soft,     piece.bare,      places};
     return smooth::smooth(context, domain, method, {piece.position, piece.normal},
                           &counts->residual);
   }
@@ -81,7 +87,8 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                  piece.soft,
                                  planes ? start.shape : Span<const mesh::TriangleShape>{},
                                  piece.bare,
-                                 surface->patch_guarded.span()};
+                                 surface->patch_guarded.span(),
+                                 places};
   TRY(smooth::fair(context, mesh, counts->patches, options, &report));
   counts->residual = report.residual;
   counts->guarded_patches = report.guarded_patches;
@@ -103,7 +110,8 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
                            start.on_border,
                            {},
                            {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
-                            surface->constraint_normal.span(), surface->counts.spacing}};
+                            surface->constraint_normal.span(), surface->counts.spacing},
+                           start.place};
   TRY(apply_method(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
 }
@@ -112,7 +120,8 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
 Status smooth_creased(Context& context, const Start& start, const Constraints& constraints,
                       smooth::Method method, network::CreasedMesh* creased, Surface* surface) {
   const size_t copies = creased->position.size();
-  Array<Vec3> anchor(context), given_normal(context);
+  Array<Vec3> anchor(context), given_normal(context), place(context);
+  TRY(place.resize(copies));
   Array<double> cutoff(context), share(context);
   Array<uint8_t> on_curve(context), held(context);
   TRY(on_curve.resize(copies));
@@ -127,6 +136,7 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
     const uint32_t v = creased->cut.origin[c];
     on_curve[c] = constraints.on_curve[v];
     held[c] = constraints.held[v];
+    place[c] = start.place[v];
     if (cutoff.empty()) continue;
     cutoff[c] = constraints.cutoff[v];
     share[c] = constraints.share[v];
@@ -139,7 +149,8 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       held.span(),
       creased->on_border.span(),
       creased->bare.span(),
-      {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing}};
+      {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing},
+      place.span()};
   TRY(apply_method(context, start, piece, method, surface));
   network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),

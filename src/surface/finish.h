@@ -15,6 +15,7 @@ struct Start {
   Span<const mesh::TriangleShape> shape;
   smooth::Metric metric;
   Span<const uint8_t> on_border;
+  Span<const Vec3> place = {};  // roughly where each vertex stands; for the order of elimination
 };
 
 // Neighbours, the check of the mesh, and the counts that follow from them.

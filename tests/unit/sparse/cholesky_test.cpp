@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <thread>
 
 #include "matrices.h"
+#include "sparse/nested_dissection.h"
 #include "sparse/ordering.h"
 
 using namespace matrices;
@@ -186,6 +188,71 @@ TEST_CASE("cholesky: a repeated factor has the bits of a fresh one and allocates
   CHECK(heap.allocator.calls == calls);
   CHECK(x == solution(second, b));
   CHECK(x != solution(first, b));
+}
+
+namespace {
+
+// Runs the bodies on three threads, the last ones first.
+void on_three_threads(uint32_t count, void (*body)(uint32_t, void*), void* data, void* calls) {
+  ++*static_cast<size_t*>(calls);
+  std::vector<std::thread> threads;
+  for (uint32_t t = 0; t < 3; ++t) {
+    threads.emplace_back([=] {
+      for (uint32_t i = count; i-- > 0;) {
+        if (i % 3 == t) body(i, data);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+}  // namespace
+
+TEST_CASE("cholesky: the same bits on every instruction set and on any number of threads") {
+  std::mt19937 random(21);
+  const uint32_t side = 110;
+  const Symmetric a = square(grid(side, side));
+  const std::vector<double> b = random_vector(a.n * 9, random);
+  std::vector<wireskin::Vec3> place;
+  for (uint32_t i = 0; i < a.n; ++i) {
+    place.push_back({static_cast<double>(i % side), static_cast<double>(i / side), 0.0});
+  }
+  const std::vector<uint32_t> patch(a.n, 0);
+  std::vector<double> truth;
+  for (const bool threads : {false, true}) {
+    for (const Instructions set :
+         {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
+      if (!has_instructions(set)) continue;
+      scenes::FaultyAllocator allocator;
+      size_t calls = 0;
+      wireskin::Callbacks callbacks;
+      callbacks.parallel_for = threads ? &on_three_threads : nullptr;
+      callbacks.parallel_for_user = &calls;
+      wireskin::Context context({&allocator.allocate, &allocator.release, &allocator}, 0,
+                                callbacks);
+      const Csc lower = a.csc(context);
+      Array<uint32_t> order(context);
+      must(nested_dissection(lower, {{}, span(place), span(patch)}, &order));
+      Cholesky factor(context, set);
+      must(factor.analyse(lower, order.span()));
+      const size_t before = context.used_bytes();
+      must(factor.factor(lower));
+      CHECK(context.used_bytes() - before == factor.factor_bytes());
+      std::vector<double> x = b;
+      must(factor.solve(span(x), 9));
+      if (truth.empty()) truth = x;
+      CHECK(x == truth);
+      CHECK((calls > 10) == threads);
+      // A bad column is the same one, however the work is divided.
+      Csc bad = a.csc(context);
+      for (const uint32_t j : {700u, 7000u, 9000u}) bad.value[bad.start[j]] = -1.0;
+      const Status status = factor.factor(bad);
+      CHECK(status.code == Code::not_positive_definite);
+      static uint32_t place_of_bad = wireskin::k_none;
+      if (place_of_bad == wireskin::k_none) place_of_bad = status.place.vertex;
+      CHECK(status.place.vertex == place_of_bad);
+    }
+  }
 }
 
 TEST_CASE("cholesky: another pattern may be analysed in the same object") {

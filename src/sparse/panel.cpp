@@ -1,0 +1,188 @@
+#include "sparse/panel.h"
+
+#include <cfloat>
+#include <cmath>
+
+namespace wireskin::sparse {
+
+static constexpr uint32_t k_panel_block = 64;
+static constexpr uint32_t k_diagonal_blocks = k_panel_block / DiagonalBlock::k_size;
+
+namespace {
+
+// Some columns under way: their diagonal blocks once these are factored.
+struct ColumnBlock {
+  uint32_t first;
+  uint32_t count;
+  DiagonalBlock diagonal[k_diagonal_blocks];
+};
+
+// What the threads share while they divide a part of the work. Each takes every slots-th chunk.
+struct PanelParts {
+  const PanelTools* tools;
+  const Panel* panel;
+  const ColumnBlock* block;
+  uint32_t first, end;  // rows of the panel, or columns of the update
+  uint32_t chunk;
+  void (*part)(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch);
+};
+
+}  // namespace
+
+// Factors the lower triangle of `d.columns` columns at `at`, a column at a time. Returns the first
+// bad column.
+static uint32_t factor_diagonal(const double* at, size_t step, DiagonalBlock* d) {
+  const uint32_t n = d->columns;
+  for (uint32_t j = 0; j < n; ++j) {
+    for (uint32_t i = j; i < n; ++i) d->entry[i][j] = at[i + j * step];
+  }
+  for (uint32_t j = 0; j < n; ++j) {
+    if (!(d->entry[j][j] > 0.0 && d->entry[j][j] <= DBL_MAX)) return j;
+    d->entry[j][j] = std::sqrt(d->entry[j][j]);
+    d->inverse[j] = 1.0 / d->entry[j][j];
+    for (uint32_t i = j + 1; i < n; ++i) d->entry[i][j] *= d->inverse[j];
+    for (uint32_t k = j + 1; k < n; ++k) {
+      for (uint32_t i = k; i < n; ++i) d->entry[i][k] -= d->entry[i][j] * d->entry[k][j];
+    }
+  }
+  return k_none;
+}
+
+static void store_diagonal(const DiagonalBlock& d, double* at, size_t step) {
+  for (uint32_t j = 0; j < d.columns; ++j) {
+    for (uint32_t i = j; i < d.columns; ++i) at[i + j * step] = d.entry[i][j];
+  }
+}
+
+static uint32_t columns_of_diagonal(const ColumnBlock& block, uint32_t offset) {
+  const uint32_t left = block.count - offset;
+  return left < DiagonalBlock::k_size ? left : DiagonalBlock::k_size;
+}
+
+// The rows first .. end of a block of columns lose what the columns before `from_column` inside
+// the block contribute to `columns` columns at `column`.
+static void update_columns(const PanelTools& tools, const Panel& panel, uint32_t from_column,
+                           uint32_t column, uint32_t columns, uint32_t first, uint32_t end,
+                           double* scratch) {
+  if (column == from_column) return;
+  const size_t step = panel.step();
+  const double* from = panel.value + from_column * step;
+  tools.kernels->update(
+      {end - first, columns, column - from_column, from + first, step, from + column, 1, step,
+       panel.value + column * step + first, step, first == column, false},
+      scratch);
+}
+
+// Factors the block's columns in the rows from the block's first on down to `end`.
+static uint32_t factor_block(const PanelTools& tools, const Panel& panel, uint32_t end,
+                             ColumnBlock* block) {
+  const size_t step = panel.step();
+  for (uint32_t j = 0; j < block->count; j += DiagonalBlock::k_size) {
+    DiagonalBlock* d = &block->diagonal[j / DiagonalBlock::k_size];
+    d->columns = columns_of_diagonal(*block, j);
+    const uint32_t column = block->first + j;
+    double* at = panel.value + column * step + column;
+    update_columns(tools, panel, block->first, column, d->columns, column, end, tools.scratch);
+    const uint32_t bad = factor_diagonal(at, step, d);
+    if (bad != k_none) return column + bad;
+    // Rows are solved in fours; those of the diagonal block that come along are stored again.
+    const uint32_t below = d->columns / 4 * 4;
+    tools.kernels->solve_block(*d, end - column - below, at + below, static_cast<ptrdiff_t>(step));
+    store_diagonal(*d, at, step);
+  }
+  return k_none;
+}
+
+// The same for rows below all of the block's diagonal.
+static void solve_rows_below(const PanelParts& parts, uint32_t first, uint32_t end,
+                             double* scratch) {
+  const ColumnBlock& block = *parts.block;
+  const size_t step = parts.panel->step();
+  for (uint32_t j = 0; j < block.count; j += DiagonalBlock::k_size) {
+    const DiagonalBlock& d = block.diagonal[j / DiagonalBlock::k_size];
+    const uint32_t column = block.first + j;
+    update_columns(*parts.tools, *parts.panel, block.first, column, d.columns, first, end, scratch);
+    parts.tools->kernels->solve_block(d, end - first, parts.panel->value + column * step + first,
+                                      static_cast<ptrdiff_t>(step));
+  }
+}
+
+// The rows first .. end of the block lose what all columns before the block contribute.
+static void update_rows(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch) {
+  update_columns(*parts.tools, *parts.panel, 0, parts.block->first, parts.block->count, first, end,
+                 scratch);
+}
+
+// The columns first .. end of the update matrix.
+static void update_tail(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch) {
+  const Panel& panel = *parts.panel;
+  const size_t step = panel.step(), tail_step = round_up_rows(panel.tail());
+  const double* rows = panel.value + panel.width + first;
+  const uint32_t height = static_cast<uint32_t>(tail_step) - first;
+  parts.tools->kernels->update(
+      {height, end - first, panel.width, rows, step, rows, 1, step,
+       panel.update + first * tail_step + first, tail_step, true, panel.first},
+      scratch);
+}
+
+static ColumnBlock block_at(const Panel& panel, uint32_t first) {
+  ColumnBlock block;
+  block.first = first;
+  block.count = panel.width - first < k_panel_block ? panel.width - first : k_panel_block;
+  return block;
+}
+
+uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
+  for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
+    ColumnBlock block = block_at(panel, first);
+    update_columns(tools, panel, 0, first, block.count, first, panel.step(), tools.scratch);
+    const uint32_t bad = factor_block(tools, panel, panel.step(), &block);
+    if (bad != k_none) return bad;
+  }
+  if (panel.tail() > 0) {
+    update_tail({&tools, &panel, nullptr, 0, 0, 0, nullptr}, 0, panel.tail(), tools.scratch);
+  }
+  return k_none;
+}
+
+static void run_slot(uint32_t slot, void* data) {
+  const PanelParts& parts = *static_cast<const PanelParts*>(data);
+  double* scratch = parts.tools->scratch + slot * k_update_scratch;
+  const uint32_t stride = parts.tools->slots * parts.chunk;
+  for (uint32_t at = parts.first + slot * parts.chunk; at < parts.end; at += stride) {
+    parts.part(parts, at, parts.end - at < parts.chunk ? parts.end : at + parts.chunk, scratch);
+  }
+}
+
+// Divides first .. end into chunks of fours, so that each thread gets some and none is tiny.
+static Status run_parts(Context& context, PanelParts parts) {
+  constexpr uint32_t k_least_chunk = 32;
+  const uint32_t share = (parts.end - parts.first) / (2 * parts.tools->slots);
+  parts.chunk = share < k_least_chunk ? k_least_chunk : round_up_rows(share);
+  const uint32_t chunks = (parts.end - parts.first + parts.chunk - 1) / parts.chunk;
+  context.for_each(chunks < parts.tools->slots ? chunks : parts.tools->slots, &run_slot, &parts);
+  return context.checkpoint();
+}
+
+Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
+                             uint32_t* bad_column) {
+  *bad_column = k_none;
+  const uint32_t rows = panel.step();
+  for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
+    ColumnBlock block = block_at(panel, first);
+    const uint32_t below = round_up_rows(first + block.count);
+    update_columns(tools, panel, 0, first, block.count, first, below, tools.scratch);
+    if (below < rows) {
+      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &update_rows}));
+    }
+    *bad_column = factor_block(tools, panel, below, &block);
+    if (*bad_column != k_none) return {};
+    if (below < rows) {
+      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &solve_rows_below}));
+    }
+  }
+  if (panel.tail() == 0) return {};
+  return run_parts(context, {&tools, &panel, nullptr, 0, panel.tail(), 0, &update_tail});
+}
+
+}  // namespace wireskin::sparse

@@ -1,0 +1,65 @@
+// How systems are solved is the library's choice: by threads of the caller's, by conjugate
+// gradients where the memory cap forbids a factor. The result is the same, or as good.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "support/call.h"
+
+using namespace scenes;
+
+namespace {
+
+void on_two_threads(uint32_t count, void (*body)(uint32_t, void*), void* data, void* calls) {
+  ++*static_cast<size_t*>(calls);
+  std::thread second([=] {
+    for (uint32_t i = 1; i < count; i += 2) body(i, data);
+  });
+  for (uint32_t i = 0; i < count; i += 2) body(i, data);
+  second.join();
+}
+
+Scene fine_octants(double fineness) {
+  Scene scene = octants();
+  scene.spacing /= fineness;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("solver: the caller's threads change no bit") {
+  const Scene scene = fine_octants(12.0);
+  wsk_options options = options_of(scene);
+  const Call alone = watched_scene(scene, options);
+  REQUIRE(alone.status == WSK_OK);
+  CHECK(alone.report.solver == WSK_SOLVER_DIRECT);
+  size_t calls = 0;
+  options.parallel_for = &on_two_threads;
+  options.parallel_for_user = &calls;
+  const Call together = watched_scene(scene, options);
+  REQUIRE(together.status == WSK_OK);
+  CHECK(calls > 5);
+  CHECK(hash_of(together.result) == hash_of(alone.result));
+}
+
+TEST_CASE("solver: under a memory cap iterations take the place of the factor, and say so") {
+  const Scene scene = fine_octants(6.0);
+  wsk_options options = options_of(scene);
+  const Call direct = watched_scene(scene, options);
+  REQUIRE(direct.status == WSK_OK);
+  options.memory_cap = direct.report.peak_bytes / 100 * 85;
+  const Call capped = watched_scene(scene, options);
+  REQUIRE(capped.status == WSK_OK);
+  CHECK(capped.report.peak_bytes <= options.memory_cap);
+  CHECK(capped.report.solver == WSK_SOLVER_ITERATIVE);
+  CHECK(capped.report.cg_iterations > 10);
+  CHECK(capped.report.residual <= 1e-10);
+  REQUIRE(capped.result.positions.size() == direct.result.positions.size());
+  double worst = 0.0;
+  for (size_t i = 0; i < direct.result.positions.size(); ++i) {
+    worst = std::fmax(worst, std::fabs(capped.result.positions[i] - direct.result.positions[i]));
+  }
+  CHECK(worst <= 1e-7);
+}
