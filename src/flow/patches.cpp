@@ -225,6 +225,29 @@ static Status add_patch(const Complex& complex, const CurveEdges& curves, const 
   return patches->facts.push(facts);
 }
 
+// Ears that no patch took (walls that cut off the tip of a junction have chords all round) go to
+// the patch beside them, so that no triangle of the walls is lost.
+static Status own_rest(const Complex& complex, const CurveEdges& curves, const Sheet& walls,
+                       Array<uint32_t>* owner) {
+  Array<uint32_t> queue(owner->context());
+  TRY(queue.reserve(owner->size()));
+  for (uint32_t t = 0; t < owner->size(); ++t) {
+    if ((*owner)[t] != k_none) queue.push_reserved(t);
+  }
+  for (size_t i = 0; i < queue.size(); ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{queue[i]} + k];
+      if (curves.on_curve(e)) continue;
+      for (const uint32_t t : complex.triangles_of(e)) {
+        if (walls.in[t] == 0 || (*owner)[t] != k_none) continue;
+        (*owner)[t] = (*owner)[queue[i]];
+        queue.push_reserved(t);
+      }
+    }
+  }
+  return {};
+}
+
 Status cut_patches(Context& context, const Complex& complex, const CurveEdges& curves,
                    const Samples& samples, const Persistence& persistence,
                    const Topology3& topology, Patches* patches) {
@@ -255,7 +278,7 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
     TRY(patches->start.push(static_cast<uint32_t>(patches->triangle.size())));
     if (c % 256 == 0) TRY(context.checkpoint());
   }
-  return {};
+  return own_rest(complex, curves, topology.walls, &patches->owner);
 }
 
 }  // namespace wireskin::flow

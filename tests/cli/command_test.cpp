@@ -201,7 +201,8 @@ TEST_CASE("faults of reading end with 1, one line, and no file") {
     CAPTURE(c.name);
     write_file(folder / c.name, c.content);
     const Run r =
-        run(folder, std::string(c.name) + " -o out.obj --image out.png --report out.json");
+        run(folder, std::string(c.name) +
+                        " --topology normals -o out.obj --image out.png --report out.json");
     CHECK(r.status == 1);
     CHECK(r.out == "");
     CHECK(r.err == c.message);
@@ -271,7 +272,8 @@ TEST_CASE("faults of the network: the place in one line and in the report, no su
     CAPTURE(c.name);
     write_file(folder / c.name, c.content);
     const Run r =
-        run(folder, std::string(c.name) + " -o out.obj --image out.png --report out.json");
+        run(folder, std::string(c.name) +
+                        " --topology normals -o out.obj --image out.png --report out.json");
     CAPTURE(r.err);
     CHECK(r.status == 1);
     CHECK(r.out == "");
