@@ -36,6 +36,8 @@ namespace wireskin_cli {
 Network read_network(const std::string& path);
 Network read_network_bytes(const std::string& file, Format format, std::string bytes);
 
+Network read_net(const std::string& file, std::string_view text);
+Network read_rawnet(const std::string& file, std::string_view text);
 Network read_obj(const std::string& file, std::string_view text);
 Network read_ply(const std::string& file, std::string_view bytes);
 Network read_table(const std::string& file, std::string_view text);
