@@ -8,8 +8,6 @@
 
 namespace wireskin::api {
 
-namespace {
-
 // What the view of a flow points to.
 struct FlowTables {
   Array<wsk_void> voids;
@@ -27,8 +25,6 @@ struct FlowTables {
         arc_vertices(context),
         bare_vertices(context) {}
 };
-
-}  // namespace
 
 }  // namespace wireskin::api
 

@@ -51,7 +51,7 @@ static Status count_components(Context& context, const Flow& flow, const Sheet& 
   return {};
 }
 
-static Status count_topology(Context& context, const Flow& flow, Reconstruction* result) {
+static Status count_reconstruction(Context& context, const Flow& flow, Reconstruction* result) {
   const Sheet& walls = result->topology.walls;
   Array<uint32_t> label(context);
   int64_t euler = 0;
@@ -80,7 +80,7 @@ Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptio
                         options.thicken, &result->topology));
   TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.persistence,
                   result->topology, &result->patches));
-  return count_topology(context, flow, result);
+  return count_reconstruction(context, flow, result);
 }
 
 }  // namespace wireskin::flow

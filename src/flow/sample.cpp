@@ -46,7 +46,7 @@ struct Stations {
 
 static uint32_t pieces_for(double length, double step) {
   const double wished = length / step;
-  if (!(wished < 1e9)) return 1000'000'000u;
+  if (!(wished < 1e9)) return 1000000000u;
   const uint32_t pieces = static_cast<uint32_t>(wished);
   return pieces * step < length ? pieces + 1 : pieces;
 }

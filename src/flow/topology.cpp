@@ -127,7 +127,7 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
     if (chosen->size() == wished) break;
     TRY(context.checkpoint());
     const uint32_t creator = persistence.voids[i].creator;
-    Verdict verdict;
+    Verdict verdict = Verdict::gone;
     TRY(try_void(complex, curves, creator, i, &trial, &verdict));
     if (verdict == Verdict::unbounded) TRY(unbounded.push(i));
     if (verdict != Verdict::accepted) continue;

@@ -14,8 +14,8 @@ static uint32_t curve_before(const flow::Flow& flow, uint32_t i) {
 }
 
 // Drops the vertices that neither a triangle nor a curve uses.
-static Status take_vertices(const flow::Flow& flow, const flow::FlowMesh& mesh, Surface* surface,
-                            FlowOutcome* outcome) {
+static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& mesh,
+                                 Surface* surface, FlowOutcome* outcome) {
   const size_t samples = flow.samples.position.size();
   Array<uint32_t> number(outcome->vertex_of.context());
   TRY(number.assign(mesh.position.size(), k_none));
@@ -38,8 +38,8 @@ static Status take_vertices(const flow::Flow& flow, const flow::FlowMesh& mesh, 
   return {};
 }
 
-static Status take_curves(const flow::Flow& flow, Span<const uint32_t> vertex_of,
-                          Surface* surface) {
+static Status take_flow_curves(const flow::Flow& flow, Span<const uint32_t> vertex_of,
+                               Surface* surface) {
   const flow::Samples& samples = flow.samples;
   TRY(surface->vertex_curve.assign(surface->position.size(), k_none));
   TRY(surface->curve_edge.reserve(2 * samples.at.size()));
@@ -77,8 +77,8 @@ static Status normals_of_vertices(const flow::Flow& flow, Span<const Vec3> given
 }
 
 // Along arcs normals change evenly from one given sample to the next.
-static Status take_normals(const flow::Flow& flow, Span<const Vec3> given,
-                           Span<const uint32_t> vertex_of, Surface* surface) {
+static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
+                                Span<const uint32_t> vertex_of, Surface* surface) {
   const flow::Samples& samples = flow.samples;
   const flow::Arcs& arcs = flow.arcs;
   Array<Vec3> normal(surface->normal.context());
@@ -182,12 +182,12 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
     TRY(flow::mesh_patches(context, flow, reconstruction, settings.spacing, &mesh));
     outcome->held_back = mesh.held_back;
     outcome->crossings = mesh.crossings;
-    TRY(take_vertices(flow, mesh, surface, outcome));
+    TRY(take_flow_vertices(flow, mesh, surface, outcome));
   }
-  TRY(take_curves(flow, outcome->vertex_of.span(), surface));
+  TRY(take_flow_curves(flow, outcome->vertex_of.span(), surface));
   TRY(surface->constraint_normal.assign(surface->position.size(), Vec3{}));
   if (!settings.normal.empty()) {
-    TRY(take_normals(flow, settings.normal, outcome->vertex_of.span(), surface));
+    TRY(take_flow_normals(flow, settings.normal, outcome->vertex_of.span(), surface));
   }
   mesh::Topology topology(context);
   const Status status = count_topology(static_cast<uint32_t>(surface->position.size()),
