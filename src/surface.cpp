@@ -1,5 +1,6 @@
 #include "surface.h"
 
+#include "network/group.h"
 #include "network/patch_mesh.h"
 #include "surface/finish.h"
 #include "surface/fit.h"
@@ -73,6 +74,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   counts->segments = static_cast<uint32_t>(network.segment.size());
   counts->patches = network.patches();
   TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
+  TRY(network::group_patches(vertices, &network));
+  counts->patches = network.patches();
   TRY(list_curve_edges(network, vertices, surface));
 
   TRY(context.enter(Stage::patches));

@@ -4,8 +4,8 @@
 // samples or more are nodes, whichever curves those belong to. Out: the nodes in ascending order of
 // their numbers and the node of each sample. A node has the position of its first sample (the
 // others must agree with it) and the mean of its samples' normals. Where sharp curves pass, normals
-// may differ: there the mean is that of the sharp curves' sides, or of all normals where some side is
-// not known. O(s log s).
+// may differ: there the mean is that of the sharp curves' sides, or of all normals where some side
+// is not known. O(s log s).
 #pragma once
 
 #include "base/array.h"

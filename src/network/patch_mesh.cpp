@@ -2,9 +2,8 @@
 
 #include "base/sort.h"
 #include "mesh/loop_mesh.h"
-#include "network/border.h"
-#include "network/enclosure.h"
-#include "network/side_normals.h"
+#include "network/border_check.h"
+#include "network/plane.h"
 #include "planar/polygon_mesh.h"
 
 namespace wireskin::network {
@@ -30,13 +29,20 @@ struct Builder {
       : mesh(result), corner(context), chord(context), patch_start(context) {}
 };
 
-// Memory for one patch, reused: the border, the mesh either way, and what both come to: triangles
-// over border vertices 0 .. n - 1 and inner ones from n, the corners' places for the metric, and
-// where the inner vertices may start in space.
+// Memory for one patch, reused: the border, the vertices of the patch that are on curves (those of
+// the loops, then inner ones), the mesh either way, and what both come to: triangles over these
+// vertices and free ones behind them, the corners' places for the metric, and where the free
+// vertices may start in space.
 struct PatchScratch {
-  Array<uint32_t> border;
-  Array<Vec2> polygon;
-  Array<Vec3> loop, loop_normal;  // along the border; normals are zero where not known
+  Border border;
+  Array<uint32_t> local;         // of each curve vertex, k_none between patches
+  Array<uint32_t> vertex;        // of each local one the curve vertex
+  Array<uint32_t> loop;          // local, in the order of the border
+  Array<uint32_t> inner_edge;    // two local ones each, the lesser first
+  Array<Chord> curve_edge;       // local, a < b, sorted: loops' and inner edges
+  uint32_t isolated = 0;         // so many of the last local vertices are points
+  Array<Vec3> position, normal;  // of the local vertices
+  Array<Vec2> flat;
   planar::PolygonMesh planar;
   mesh::LoopMesh spatial;
   Array<Vec3> place;
@@ -44,9 +50,14 @@ struct PatchScratch {
 
   explicit PatchScratch(Context& context)
       : border(context),
-        polygon(context),
+        local(context),
+        vertex(context),
         loop(context),
-        loop_normal(context),
+        inner_edge(context),
+        curve_edge(context),
+        position(context),
+        normal(context),
+        flat(context),
         planar(context),
         spatial(context),
         place(context),
@@ -68,30 +79,96 @@ static Status at_patch(Status status, const Network& network, uint32_t patch) {
   return status;
 }
 
-static double mean_edge(const CurveVertices& vertices, Span<const uint32_t> border) {
-  double sum = 0.0;
-  for (size_t i = 0; i < border.size(); ++i) {
-    const size_t next = i + 1 == border.size() ? 0 : i + 1;
-    sum += length(vertices.position[border[next]] - vertices.position[border[i]]);
+static bool before(const Chord& x, const Chord& y) {
+  if (x.a != y.a) return x.a < y.a;
+  return x.b != y.b ? x.b < y.b : x.patch < y.patch;
+}
+
+static Status add_vertex(uint32_t v, const CurveVertices& vertices, const Vec3& normal,
+                         PatchScratch* scratch, uint32_t* local) {
+  if (scratch->local[v] == k_none) {
+    scratch->local[v] = static_cast<uint32_t>(scratch->vertex.size());
+    TRY(scratch->vertex.push(v));
+    TRY(scratch->position.push(vertices.position[v]));
+    TRY(scratch->normal.push(normal));
   }
-  return sum / static_cast<double>(border.size());
+  *local = scratch->local[v];
+  return {};
+}
+
+static Status add_edge(uint32_t a, uint32_t b, PatchScratch* scratch) {
+  return scratch->curve_edge.push(a < b ? Chord{a, b, k_none} : Chord{b, a, k_none});
+}
+
+// Numbers the curve vertices of a patch and lists its edges.
+static Status take_domain(const Network& network, const CurveVertices& vertices, uint32_t patch,
+                          PatchScratch* scratch) {
+  TRY(border_of_patch(network, vertices, patch, &scratch->border));
+  const Border& border = scratch->border;
+  for (uint32_t v : scratch->vertex) scratch->local[v] = k_none;
+  scratch->vertex.clear();
+  scratch->position.clear();
+  scratch->normal.clear();
+  scratch->inner_edge.clear();
+  scratch->curve_edge.clear();
+  TRY(scratch->loop.resize(border.size()));
+  for (uint32_t i = 0; i < border.size(); ++i) {
+    TRY(add_vertex(border.vertex[i], vertices, border.normal[i], scratch, &scratch->loop[i]));
+  }
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      TRY(add_edge(scratch->loop[i], scratch->loop[next_on_border(border, l, i)], scratch));
+    }
+  }
+  for (uint32_t s : network.inner[patch]) {
+    uint32_t last = k_none, local = k_none;
+    for (uint32_t k = 0; k <= vertices.edges[s]; ++k, last = local) {
+      const uint32_t v = segment_vertex(network, vertices, s, k);
+      TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
+      if (k == 0) continue;
+      TRY(scratch->inner_edge.push(last));
+      TRY(scratch->inner_edge.push(local));
+      TRY(add_edge(last, local, scratch));
+    }
+  }
+  scratch->isolated = static_cast<uint32_t>(network.point[patch].size());
+  for (uint32_t v : network.point[patch]) {
+    uint32_t local = k_none;
+    TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
+  }
+  sort(scratch->curve_edge.span(), before);
+  return {};
+}
+
+static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
+  const Chord edge = {a < b ? a : b, a < b ? b : a, k_none};
+  size_t low = 0, high = scratch.curve_edge.size();
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (before(scratch.curve_edge[middle], edge)) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low < scratch.curve_edge.size() && scratch.curve_edge[low].a == edge.a &&
+         scratch.curve_edge[low].b == edge.b;
 }
 
 static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
                            uint32_t patch, Builder* builder) {
   PatchMesh* mesh = builder->mesh;
-  const uint32_t n = static_cast<uint32_t>(scratch.border.size());
+  const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
   const auto global = [&](uint32_t v) {
-    return v < n ? scratch.border[v] : mesh->vertices + (v - n);
+    return v < n ? scratch.vertex[v] : mesh->vertices + (v - n);
   };
   for (size_t h = 0; h < triangle.size(); ++h) {
     const uint32_t a = triangle[h], b = triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
     TRY(mesh->triangle.push(global(a)));
     TRY(builder->corner.push(scratch.place[a]));
     if (h % 3 == 0) TRY(mesh->patch.push(patch));
-    const bool on_border = (a + 1) % n == b || (b + 1) % n == a;
     // Each edge inside is met once in each direction; the ascending one is noted.
-    if (a < n && b < n && !on_border && global(a) < global(b)) {
+    if (a < n && b < n && global(a) < global(b) && !is_curve_edge(scratch, a, b)) {
       TRY(builder->chord.push({global(a), global(b), patch}));
     }
   }
@@ -104,26 +181,31 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   return {};
 }
 
-static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& enclosure,
-                            double spacing, double least_facing, PatchScratch* scratch) {
-  Plane plane;
-  TRY(fit_plane(vertices, scratch->border.span(), scratch->loop_normal.span(), &plane));
-  const size_t n = scratch->border.size();
-  TRY(scratch->polygon.resize(n));
+static Status mesh_flat(double spacing, PatchScratch* scratch) {
+  Context& context = scratch->vertex.context();
+  round_to_grid(scratch->flat.span(), &spacing);
+  const bool simple =
+      scratch->border.loops() == 1 && scratch->loop.size() == scratch->vertex.size();
+  if (simple) return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
+  return fail(Code::patch_folded, "the patch has several loops");
+}
+
+// `least_facing` as in mesh_patches.
+static Status mesh_in_plane(const Plane& plane, double spacing, double least_facing,
+                            PatchScratch* scratch) {
+  const size_t n = scratch->vertex.size();
+  TRY(scratch->flat.resize(n));
   double facing = 0.0;
   size_t known = 0;
-  for (size_t i = 0; i < n; ++i) {
-    scratch->polygon[i] = plane.project(scratch->loop[i]);
-    facing += dot(scratch->loop_normal[i], plane.normal);
-    known += scratch->loop_normal[i] != Vec3{};
+  for (size_t i = 0; i < n; ++i) scratch->flat[i] = plane.project(scratch->position[i]);
+  for (const Vec3& normal : scratch->border.normal) {
+    facing += dot(normal, plane.normal);
+    known += normal != Vec3{};
   }
-  TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
   if (known > 0 && facing < least_facing * static_cast<double>(known)) {
     return fail(Code::patch_without_plane, "the plane of the patch sees too much of it edge-on");
   }
-  round_to_grid(scratch->polygon.span(), &spacing);
-  TRY(planar::mesh_polygon(scratch->border.context(), scratch->polygon.span(), spacing,
-                           &scratch->planar));
+  TRY(mesh_flat(spacing, scratch));
   const Array<Vec2>& points = scratch->planar.points;
   TRY(scratch->place.resize(points.size()));
   TRY(scratch->inner.resize(points.size() - n));
@@ -135,32 +217,39 @@ static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& encl
 }
 
 static Status mesh_in_space(double spacing, PatchScratch* scratch) {
-  TRY(mesh::mesh_loop(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span(),
-                      spacing, &scratch->spatial));
+  const size_t n = scratch->vertex.size();
+  if (n != scratch->border.size()) {
+    return fail(Code::patch_folded,
+                "no plane shows the patch without folds, and curves lie inside it");
+  }
+  TRY(mesh::mesh_loops(
+      scratch->vertex.context(),
+      {scratch->border.start.span(), scratch->position.span(), scratch->normal.span()}, spacing,
+      &scratch->spatial));
   TRY(scratch->inner.copy(scratch->spatial.inner.span()));
-  TRY(scratch->place.copy(scratch->loop.span()));
+  TRY(scratch->place.copy(scratch->position.span()));
   for (const Vec3& p : scratch->inner) TRY(scratch->place.push(p));
   return {};
 }
 
-static Status mesh_patch(const Network& network, const CurveVertices& vertices,
-                         const Enclosure& enclosure, double least_facing, uint32_t patch,
-                         PatchScratch* scratch, Builder* builder) {
-  TRY(border_of_patch(network, vertices, patch, &scratch->border));
-  TRY(normals_of_border(network, vertices, patch, &scratch->loop_normal));
-  const size_t n = scratch->border.size();
-  TRY(scratch->loop.resize(n));
-  for (size_t i = 0; i < n; ++i) {
-    scratch->loop[i] = vertices.position[scratch->border[i]];
-  }
-  const double spacing = mean_edge(vertices, scratch->border.span());
-  const Status status = mesh_in_plane(vertices, enclosure, spacing, least_facing, scratch);
+static bool may_be_meshed_otherwise(const Status& status) {
+  return status.code == Code::patch_without_plane || status.code == Code::patch_folded;
+}
+
+static Status mesh_patch(const Network& network, const CurveVertices& vertices, double least_facing,
+                         uint32_t patch, PatchScratch* scratch, Builder* builder) {
+  TRY(take_domain(network, vertices, patch, scratch));
+  const Border& border = scratch->border;
+  const double spacing = border_length(border) / static_cast<double>(border.size());
+  Plane plane;
+  Status status = fit_plane(border, &plane);
+  if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
   if (status.ok()) {
     TRY(builder->mesh->way.push(PatchWay::plane));
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
-  if (status.code != Code::patch_without_plane && status.code != Code::patch_folded) return status;
-  TRY(check_border(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span()));
+  if (!may_be_meshed_otherwise(status)) return status;
+  TRY(check_border(border));
   TRY(mesh_in_space(spacing, scratch));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
@@ -221,10 +310,7 @@ static Status split_shared_chords(const Network& network, const CurveVertices& v
       TRY(builder->chord.push({a < b ? a : b, a < b ? b : a, k_none}));
     }
   }
-  sort(builder->chord.span(), [](const Chord& x, const Chord& y) {
-    if (x.a != y.a) return x.a < y.a;
-    return x.b != y.b ? x.b < y.b : x.patch < y.patch;
-  });
+  sort(builder->chord.span(), before);
   const Span<const Chord> chords = builder->chord.span();
   for (size_t i = 0; i < chords.size(); ++i) {
     const auto same = [&](size_t k) {
@@ -241,14 +327,12 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
   Context& context = mesh->triangle.context();
   Builder builder(context, mesh);
   PatchScratch scratch(context);
-  Enclosure enclosure(context);
-  TRY(enclosure.find_components(network, vertices));
+  TRY(scratch.local.assign(vertices.position.size(), k_none));
   mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
   TRY(mesh->start.copy(vertices.position.span()));
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    TRY(at_patch(mesh_patch(network, vertices, enclosure, least_facing, p, &scratch, &builder),
-                 network, p));
+    TRY(at_patch(mesh_patch(network, vertices, least_facing, p, &scratch, &builder), network, p));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
