@@ -91,7 +91,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
       count_topology(patches.vertices, surface->triangle.span(), &topology, counts), nodes.span()));
 
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
-  const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span()};
+  const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
+                       patches.start.span(), patches.placed.span()};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,

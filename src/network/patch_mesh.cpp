@@ -1,7 +1,8 @@
 #include "network/patch_mesh.h"
 
 #include "base/sort.h"
-#include "mesh/loop_mesh.h"
+#include "mesh/dome.h"
+#include "mesh/loop_refine.h"
 #include "network/border_check.h"
 #include "network/plane.h"
 #include "planar/polygon_mesh.h"
@@ -172,7 +173,10 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
       TRY(builder->chord.push({global(a), global(b), patch}));
     }
   }
-  for (const Vec3& p : scratch.inner) TRY(mesh->start.push(p));
+  for (const Vec3& p : scratch.inner) {
+    TRY(mesh->start.push(p));
+    TRY(mesh->placed.push(mesh->way.back() != PatchWay::plane));
+  }
   const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
   if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
     return fail(Code::too_large, "the spacing is too small for the network");
@@ -216,20 +220,29 @@ static Status mesh_in_plane(const Plane& plane, double spacing, double least_fac
   return {};
 }
 
+// A triangulation of little area, raised from its border along the normals, refined where that
+// stretched it, and raised again.
 static Status mesh_in_space(double spacing, PatchScratch* scratch) {
+  constexpr int k_rounds = 4;
+  Context& context = scratch->vertex.context();
   const size_t n = scratch->vertex.size();
   if (n != scratch->border.size()) {
     return fail(Code::patch_folded,
                 "no plane shows the patch without folds, and curves lie inside it");
   }
-  TRY(mesh::mesh_loops(
-      scratch->vertex.context(),
-      {scratch->border.start.span(), scratch->position.span(), scratch->normal.span()}, spacing,
-      &scratch->spatial));
-  TRY(scratch->inner.copy(scratch->spatial.inner.span()));
+  const mesh::Loops loops = {scratch->border.start.span(), scratch->position.span(),
+                             scratch->normal.span()};
+  TRY(mesh::mesh_loops(context, loops, spacing, &scratch->spatial));
   TRY(scratch->place.copy(scratch->position.span()));
-  for (const Vec3& p : scratch->inner) TRY(scratch->place.push(p));
-  return {};
+  for (const Vec3& p : scratch->spatial.inner) TRY(scratch->place.push(p));
+  for (int round = 0; round < k_rounds; ++round) {
+    const Span<const uint32_t> triangle = scratch->spatial.triangle.span();
+    TRY(mesh::raise_dome(context, loops, triangle, scratch->place.span()));
+    if (round + 1 == k_rounds) break;
+    TRY(mesh::refine_loops(context, spacing, loops.start, &scratch->place,
+                           &scratch->spatial.triangle));
+  }
+  return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }
 
 static bool may_be_meshed_otherwise(const Status& status) {
@@ -292,6 +305,7 @@ static Status split_chord(const Chord& chord, Builder* builder) {
   }
   const uint32_t middle = mesh->vertices++;
   TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
+  TRY(mesh->placed.push(mesh->way[chord.patch] != PatchWay::plane));
   const uint32_t* own = &builder->patch_start[chord.patch];
   const uint32_t first_split = builder->patch_start.back();
   const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
@@ -330,6 +344,7 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
   TRY(scratch.local.assign(vertices.position.size(), k_none));
   mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
   TRY(mesh->start.copy(vertices.position.span()));
+  TRY(mesh->placed.assign(mesh->vertices, 0));
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
     TRY(at_patch(mesh_patch(network, vertices, least_facing, p, &scratch, &builder), network, p));

@@ -27,9 +27,10 @@ struct PatchMesh {
   Array<mesh::TriangleShape> shape;  // of each triangle, in its patch's plane or in space
   Array<PatchWay> way;               // of each patch
   Array<Vec3> start;                 // of each vertex: on its curve, in its plane or in space
+  Array<uint8_t> placed;             // of each vertex: free, and where it starts in space matters
 
   explicit PatchMesh(Context& context)
-      : triangle(context), patch(context), shape(context), way(context), start(context) {}
+      : triangle(context), patch(context), shape(context), way(context), start(context), placed(context) {}
 };
 
 // `least_facing`: a plane is taken only where the mean cosine between its normal and those of the

@@ -51,6 +51,26 @@ static Status harmonic_start(Context& context, const FairMesh& mesh, double* res
   return system.solve({}, {}, mesh.position, residual);
 }
 
+// The paper's steps are linear in what the curves hold, so they flatten a patch whose normals
+// cancel out; those with a place of their own go back there, with the triangles that they came
+// with.
+static Status put_in_place(Context& context, const FairMesh& mesh, uint32_t patches,
+                           Span<const uint32_t> triangle) {
+  if (mesh.placed.empty()) return {};
+  Array<uint8_t> placed(context);
+  TRY(placed.assign(patches, 0));
+  for (size_t h = 0; h < triangle.size(); ++h) {
+    if (mesh.placed[triangle[h]]) placed[mesh.patch[h / 3]] = 1;
+  }
+  for (size_t h = 0; h < triangle.size(); ++h) {
+    if (placed[mesh.patch[h / 3]]) mesh.triangle[h] = triangle[h];
+  }
+  for (size_t v = 0; v < mesh.placed.size(); ++v) {
+    if (mesh.placed[v]) mesh.position[v] = mesh.start[v];
+  }
+  return {};
+}
+
 static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::TriangleShape>* shapes,
                          FairReport* report) {
   uint32_t flips = 0;
@@ -149,11 +169,14 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
             FairReport* report) {
   Array<mesh::TriangleShape> shapes(context);
   Array<Vec3> curve_normal(context);
+  Array<uint32_t> triangle(context);
   Guard guard(context);
+  if (!mesh.placed.empty()) TRY(triangle.copy(mesh.triangle));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
   for (int k = 0; k < options.paper_steps; ++k) {
     TRY(paper_step(context, mesh, &shapes, report));
   }
+  TRY(put_in_place(context, mesh, patches, triangle.span()));
   // Soft curves take the normals that the last step smoothed; held ones have those given.
   TRY(curve_normal.copy(mesh.normal));
   TRY(prepare_guard(mesh, patches, &guard));

@@ -7,9 +7,9 @@
 // normals, triangles (edges inside patches may be flipped). A patch whose displacement runs away
 // (more than a quarter of its size, or growing) is put back to what the paper's steps gave and
 // stays there. Cost: one factorisation of size n for the start, one for each of two paper steps,
-// one of size 2 n for the displacements, more where it no longer serves the later ones. Sources: T. Stanko et al., "Surfacing Curve
-// Networks with Normal Control", 2016; H. Moreton, C. Sequin, "Functional Optimization for Fair
-// Surface Design", 1992.
+// one of size 2 n for the displacements, more where it no longer serves the later ones. Sources: T.
+// Stanko et al., "Surfacing Curve Networks with Normal Control", 2016; H. Moreton, C. Sequin,
+// "Functional Optimization for Fair Surface Design", 1992.
 #pragma once
 
 #include "smooth/smooth.h"
@@ -27,6 +27,9 @@ struct FairMesh {
   Soft soft;
   Span<const mesh::TriangleShape> start_shape;  // empty: positions are a start already
   Span<const uint8_t> bare = {};                // held, on a border, normal not known; empty: none
+  // Free vertices with a place to start from instead of the harmonic one; empty: none.
+  Span<const Vec3> start = {};
+  Span<const uint8_t> placed = {};
 };
 
 struct FairOptions {

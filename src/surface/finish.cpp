@@ -53,6 +53,8 @@ struct Workpiece {
   Span<uint32_t> triangle;
   Span<const uint8_t> on_curve, held, on_border, bare;
   smooth::Soft soft;
+  Span<const Vec3> start = {};
+  Span<const uint8_t> placed = {};
 };
 
 }  // namespace
@@ -79,7 +81,9 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                  piece.on_border,
                                  piece.soft,
                                  planes ? start.shape : Span<const mesh::TriangleShape>{},
-                                 piece.bare};
+                                 piece.bare,
+                                 piece.start,
+                                 piece.placed};
   TRY(smooth::fair(context, mesh, counts->patches, options, &report));
   counts->residual = report.residual;
   counts->guarded_patches = report.guarded_patches;
@@ -101,7 +105,9 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
                            start.on_border,
                            {},
                            {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
-                            surface->constraint_normal.span(), surface->counts.spacing}};
+                            surface->constraint_normal.span(), surface->counts.spacing},
+                           start.position,
+                           start.placed};
   TRY(apply_method(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
 }
@@ -112,7 +118,14 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   const size_t copies = creased->position.size();
   Array<Vec3> anchor(context), given_normal(context);
   Array<double> cutoff(context), share(context);
-  Array<uint8_t> on_curve(context), held(context);
+  Array<uint8_t> on_curve(context), held(context), placed(context);
+  Array<Vec3> place(context);
+  TRY(place.resize(copies));
+  TRY(placed.resize(copies));
+  for (size_t c = 0; c < copies; ++c) {
+    place[c] = start.position[creased->cut.origin[c]];
+    placed[c] = start.placed[creased->cut.origin[c]];
+  }
   TRY(on_curve.resize(copies));
   TRY(held.resize(copies));
   if (!constraints.cutoff.empty()) {
@@ -137,7 +150,9 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       held.span(),
       creased->on_border.span(),
       creased->bare.span(),
-      {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing}};
+      {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing},
+      place.span(),
+      placed.span()};
   TRY(apply_method(context, start, piece, method, surface));
   network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),

@@ -15,6 +15,8 @@ struct Start {
   Span<const mesh::TriangleShape> shape;
   smooth::Metric metric;
   Span<const uint8_t> on_border;
+  Span<const Vec3> position = {};   // of each vertex, see placed
+  Span<const uint8_t> placed = {};  // free vertices that start there; empty: none
 };
 
 // Neighbours, the check of the mesh, and the counts that follow from them.
