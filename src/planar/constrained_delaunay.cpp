@@ -1,7 +1,9 @@
 #include "planar/constrained_delaunay.h"
 
+#include "base/sort.h"
 #include "num/minmax.h"
 #include "num/predicates.h"
+#include "planar/cavity_side.h"
 
 namespace wireskin::planar {
 
@@ -12,15 +14,15 @@ static Status touching() {
   return fail(Code::patch_folded, "a vertex of the border lies on another of its edges");
 }
 
-static void link(Triangulation* t, uint32_t h, uint32_t g) {
-  t->triangles[h >> 2].twin[h & 3] = g;
-  if (g != k_none) t->triangles[g >> 2].twin[g & 3] = h;
-}
-
-static void constrain(Triangulation* t, uint32_t h) {
-  t->triangles[h >> 2].flags |= 1u << (h & 3);
+static void constrain(Triangulation* t, uint32_t h, bool border) {
   const uint32_t g = t->twin(h);
-  if (g != k_none) t->triangles[g >> 2].flags |= 1u << (g & 3);
+  const uint32_t sides[2] = {h, g};
+  for (const uint32_t side : sides) {
+    if (side == k_none) continue;
+    uint32_t& flags = t->triangles[side >> 2].flags;
+    flags |= 1u << (side & 3);
+    if (border) flags ^= k_border << (side & 3);
+  }
 }
 
 // A triangle without neighbours in a slot whose place in the queue of refine stays valid.
@@ -127,7 +129,7 @@ Status collect_cavity(Triangulation* t, const Vec2& p, uint32_t triangle) {
     const uint32_t g = t->twin(h);
     t->stack.pop();
     if (g == k_none || t->constrained(h) || !in_circumcircle(*t, g >> 2, p)) {
-      TRY(t->outline.push({t->start(h), g, t->constrained(h) ? 1u : 0u}));
+      TRY(t->outline.push({t->start(h), g, t->edge_bits(h)}));
       continue;
     }
     TRY(t->cavity.push(g >> 2));
@@ -155,7 +157,7 @@ Status fill_cavity(Triangulation* t, const Vec2& p) {
     const uint32_t slot = t->cavity[i];
     set_triangle(t, slot, vertex, edge.vertex, t->outline[i + 1 < count ? i + 1 : 0].vertex);
     link(t, 4 * slot + 1, edge.beyond);
-    t->triangles[slot].flags |= edge.constrained << 1;
+    t->triangles[slot].flags |= edge.bits << 1;
   }
   for (size_t i = 0; i < count; ++i) {
     link(t, 4 * t->cavity[i] + 2, 4 * t->cavity[i + 1 < count ? i + 1 : 0]);
@@ -183,26 +185,48 @@ static bool is_ahead(const Vec2& a, const Vec2& b, const Vec2& u) {
   return (b.y > a.y) == (u.y > a.y);
 }
 
-// The edge a-b where it exists already, else the edge opposite a that the segment crosses first.
-static Status first_crossing(const Triangulation& t, uint32_t a, uint32_t b, uint32_t* edge) {
-  const Vec2 pa = t.points[a];
-  const Vec2 pb = t.points[b];
-  uint32_t h = t.leaving[a];
-  double side = orient2d(pa, pb, t.points[t.end(h)]);
-  for (size_t step = 0; step < 3 * t.triangles.size(); ++step) {
-    if (t.end(h) == b) {
-      *edge = h;
-      return {};
-    }
-    if (side == 0.0 && is_ahead(pa, pb, t.points[t.end(h)])) return touching();
-    const double next_side = orient2d(pa, pb, t.points[t.apex(h)]);
-    // The triangle's angle at a is below 180 degrees, so right-then-left means ahead of a.
-    if (side < 0.0 && next_side > 0.0) {
-      *edge = Triangulation::next(h);
-      return {};
-    }
-    side = next_side;
-    h = t.turn(h);
+// The search round one end of a segment for its other end, or for the edge that it crosses first.
+struct FanSearch {
+  uint32_t from, to;
+  uint32_t spoke;
+  double side;  // of the spoke's end
+};
+
+static FanSearch begin_search(const Triangulation& t, uint32_t from, uint32_t to) {
+  const uint32_t spoke = t.leaving[from];
+  return {from, to, spoke, orient2d(t.points[from], t.points[to], t.points[t.end(spoke)])};
+}
+
+// Looks at one triangle. Sets *edge to the spoke where it ends in `to`, to the triangle's edge
+// opposite to `from` where that is crossed; t->touched where the spoke lies on the segment.
+static void search_step(Triangulation* t, FanSearch* search, uint32_t* edge) {
+  const Vec2& from = t->points[search->from];
+  const Vec2& to = t->points[search->to];
+  const uint32_t h = search->spoke;
+  if (t->end(h) == search->to) {
+    *edge = h;
+    return;
+  }
+  if (search->side == 0.0 && is_ahead(from, to, t->points[t->end(h)])) {
+    t->touched = t->end(h);
+    return;
+  }
+  const double next_side = orient2d(from, to, t->points[t->apex(h)]);
+  // The triangle's angle at `from` is below 180 degrees, so right-then-left means ahead of it.
+  if (search->side < 0.0 && next_side > 0.0) *edge = Triangulation::next(h);
+  search->side = next_side;
+  search->spoke = t->turn(h);
+}
+
+// The edge a-b where it exists already, else the edge that the segment crosses first, seen from one
+// of its ends. Both ends are searched in turns, so that a vertex of many edges costs nothing.
+static Status first_crossing(Triangulation* t, uint32_t a, uint32_t b, uint32_t* edge) {
+  FanSearch searches[2] = {begin_search(*t, a, b), begin_search(*t, b, a)};
+  t->touched = t->crossed = k_none;
+  for (size_t step = 0; step < 6 * t->triangles.size(); ++step) {
+    search_step(t, &searches[step & 1], edge);
+    if (t->touched != k_none) return touching();
+    if (*edge != k_none) return {};
   }
   return fail(Code::patch_folded, "the border crosses itself");
 }
@@ -221,13 +245,19 @@ static Status collect_corridor(Triangulation* t, uint32_t a, uint32_t b, uint32_
   TRY(t->chain.push({a, Triangulation::next(crossing), 0}));
   TRY(t->outline.push({t->start(crossing), Triangulation::previous(crossing), 0}));
   for (uint32_t apex = k_none; apex != b;) {
-    if (t->constrained(crossing)) return fail(Code::patch_folded, "the border crosses itself");
+    if (t->constrained(crossing)) {
+      t->crossed = crossing;
+      return fail(Code::patch_folded, "the border crosses itself");
+    }
     const uint32_t g = t->twin(crossing);
     WIRESKIN_ASSERT(g != k_none && t->cavity.size() <= t->triangles.size());
     TRY(t->cavity.push(g >> 2));
     apex = t->apex(g);
     const double side = apex == b ? 0.0 : orient2d(pa, pb, t->points[apex]);
-    if (side == 0.0 && apex != b) return touching();
+    if (side == 0.0 && apex != b) {
+      t->touched = apex;
+      return touching();
+    }
     // g runs from the left to the right side; its triangle adds an edge on the side of its apex.
     if (side >= 0.0) TRY(t->chain.push({t->start(g), Triangulation::previous(g), 0}));
     if (side <= 0.0) TRY(t->outline.push({apex, Triangulation::next(g), 0}));
@@ -242,7 +272,7 @@ static Status collect_corridor(Triangulation* t, uint32_t a, uint32_t b, uint32_
 // chain on both sides; there, the two places in the chain refer to each other.
 static void look_beyond(Triangulation* t, Span<CavityEdge> chain) {
   for (uint32_t i = 0; i < chain.size(); ++i) t->triangles[chain[i].beyond >> 2].mark = i;
-  for (CavityEdge& edge : chain) edge.constrained = t->constrained(edge.beyond) ? 1u : 0u;
+  for (CavityEdge& edge : chain) edge.bits = t->edge_bits(edge.beyond);
   for (uint32_t i = 0; i < chain.size(); ++i) {
     const uint32_t h = chain[i].beyond;
     if ((h & k_paired) != 0) continue;
@@ -266,91 +296,64 @@ static void attach(Triangulation* t, Span<CavityEdge> chain, uint32_t place, uin
   } else {
     link(t, h, edge.beyond);
   }
-  if (edge.constrained != 0) t->triangles[h >> 2].flags |= 1u << (h & 3);
-}
-
-// The vertex between places first and last of the chain whose circle with both holds no other.
-static uint32_t delaunay_apex(const Triangulation& t, Span<const CavityEdge> chain,
-                              uint32_t closing, uint32_t first, uint32_t last) {
-  const Vec2 a = t.points[chain[first].vertex];
-  const Vec2 b = t.points[last < chain.size() ? chain[last].vertex : closing];
-  uint32_t best = first + 1;
-  for (uint32_t i = first + 2; i < last; ++i) {
-    if (incircle(a, b, t.points[chain[best].vertex], t.points[chain[i].vertex]) > 0.0) best = i;
-  }
-  WIRESKIN_ASSERT(orient2d(a, b, t.points[chain[best].vertex]) > 0.0);
-  return best;
-}
-
-// A part of the chain still to be triangulated, and the half-edge that closes it from outside.
-struct ChainRange {
-  uint32_t first, last, parent;
-};
-
-static void push_range(Triangulation* t, uint32_t first, uint32_t last, uint32_t parent) {
-  t->stack.push_reserved(first);
-  t->stack.push_reserved(last);
-  t->stack.push_reserved(parent);
-}
-
-static ChainRange pop_range(Triangulation* t) {
-  const size_t top = t->stack.size() - 3;
-  const ChainRange range = {t->stack[top], t->stack[top + 1], t->stack[top + 2]};
-  t->stack.shrink(top);
-  return range;
+  t->triangles[h >> 2].flags |= edge.bits << (h & 3);
 }
 
 // Triangulates the region between a chain and the segment that closes it, which ends at vertex
-// `closing`, in the slots that `*slot` runs through. Returns the half-edge along the segment. Every
-// chain vertex sees the segment, so the triangle on it that is empty of chain vertices is Delaunay,
-// and the same holds for the two regions that it leaves. t->stack has room for it all.
-static uint32_t fill_side(Triangulation* t, Span<CavityEdge> chain, uint32_t closing,
-                          size_t* slot) {
+// `closing`, in the slots that `*slot` runs through. Returns the half-edge along the segment.
+static Status fill_side(Triangulation* t, Span<CavityEdge> chain, uint32_t closing,
+                        SideTriangles* side, size_t* slot, uint32_t* base) {
   const uint32_t count = static_cast<uint32_t>(chain.size());
-  uint32_t base = k_none;
-  t->stack.clear();
-  push_range(t, 0, count, k_none);
-  while (!t->stack.empty()) {
-    const ChainRange range = pop_range(t);
-    const uint32_t first = range.first, last = range.last, parent = range.parent;
-    if (last == first + 1) {
-      attach(t, chain, first, parent);
-      continue;
-    }
-    const uint32_t apex = delaunay_apex(*t, chain, closing, first, last);
-    const uint32_t triangle = t->cavity[(*slot)++];
-    const uint32_t end = last < count ? chain[last].vertex : closing;
-    set_triangle(t, triangle, chain[first].vertex, end, chain[apex].vertex);
-    if (parent == k_none)
-      base = 4 * triangle;
-    else
-      link(t, 4 * triangle, parent);
-    push_range(t, first, apex, 4 * triangle + 2);
-    push_range(t, apex, last, 4 * triangle + 1);
+  TRY(side->points.resize(size_t{count} + 1));
+  for (uint32_t i = 0; i <= count; ++i) {
+    side->points[i] = t->points[i < count ? chain[i].vertex : closing];
   }
-  return base;
+  TRY(triangulate_side(side));
+  const size_t first = *slot;
+  const auto global = [&](uint32_t h) {
+    return h == k_none ? k_none : 4 * t->cavity[first + (h >> 2)] + (h & 3);
+  };
+  for (const SideTriangle& triangle : side->triangles) {
+    uint32_t v[3];
+    for (int i = 0; i < 3; ++i) {
+      v[i] = triangle.vertex[i] < count ? chain[triangle.vertex[i]].vertex : closing;
+    }
+    set_triangle(t, t->cavity[(*slot)++], v[0], v[1], v[2]);
+  }
+  for (size_t i = 0; i < side->triangles.size(); ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t g = global(side->triangles[i].twin[k]);
+      if (g != k_none) t->triangles[t->cavity[first + i]].twin[k] = g;
+    }
+  }
+  for (uint32_t i = 0; i < count; ++i) attach(t, chain, i, global(side->inner[i]));
+  *base = global(side->inner[count]);
+  return {};
 }
 
-Status recover_edge(Triangulation* t, uint32_t a, uint32_t b) {
+Status recover_edge(Triangulation* t, uint32_t a, uint32_t b, bool border) {
   uint32_t edge = k_none;
-  TRY(first_crossing(*t, a, b, &edge));
-  if (t->start(edge) == a) {
-    constrain(t, edge);
+  TRY(first_crossing(t, a, b, &edge));
+  const uint32_t start = t->start(edge), end = t->end(edge);
+  if ((start == a && end == b) || (start == b && end == a)) {
+    constrain(t, edge, border);
     return {};
   }
+  if (t->apex(edge) == b) swap_values(a, b);
   size_t left_count = 0;
   TRY(collect_corridor(t, a, b, edge, &left_count));
-  TRY(t->stack.reserve(3 * t->chain.size() + 6));
   const Span<CavityEdge> left = t->chain.span().part(0, left_count);
   const Span<CavityEdge> right = t->chain.span().part(left_count, t->chain.size() - left_count);
+  SideTriangles side(t->points.context());
   look_beyond(t, left);
   look_beyond(t, right);
   size_t slot = 0;
-  const uint32_t left_base = fill_side(t, left, b, &slot);
-  const uint32_t right_base = fill_side(t, right, a, &slot);
+  uint32_t left_base = k_none, right_base = k_none;
+  TRY(fill_side(t, left, b, &side, &slot, &left_base));
+  TRY(fill_side(t, right, a, &side, &slot, &right_base));
   WIRESKIN_ASSERT(slot == t->cavity.size());
   link(t, left_base, right_base);
-  constrain(t, left_base);
+  constrain(t, left_base, border);
   t->hint = left_base >> 2;
   return {};
 }
@@ -363,16 +366,18 @@ void flip(Triangulation* t, uint32_t h) {
   Triangle& tg = t->triangles[g >> 2];
   const uint32_t beyond_h1 = t->twin(h1);
   const uint32_t beyond_g1 = t->twin(g1);
-  const uint32_t h1_bit = t->constrained(h1) ? 1u : 0u;
-  const uint32_t g1_bit = t->constrained(g1) ? 1u : 0u;
+  const uint32_t h1_bits = t->edge_bits(h1);
+  const uint32_t g1_bits = t->edge_bits(g1);
   const uint32_t a = t->start(h), b = t->start(g), c = t->apex(h), d = t->apex(g);
   th.vertex[h1 & 3] = d;
   tg.vertex[g1 & 3] = c;
   link(t, h, beyond_g1);
   link(t, g, beyond_h1);
   link(t, h1, g1);
-  th.flags = (th.flags & ~(1u << (h & 3) | 1u << (h1 & 3))) | g1_bit << (h & 3);
-  tg.flags = (tg.flags & ~(1u << (g & 3) | 1u << (g1 & 3))) | h1_bit << (g & 3);
+  const uint32_t h_mask = k_edge_bits << (h & 3) | k_edge_bits << (h1 & 3);
+  const uint32_t g_mask = k_edge_bits << (g & 3) | k_edge_bits << (g1 & 3);
+  th.flags = (th.flags & ~h_mask) | g1_bits << (h & 3);
+  tg.flags = (tg.flags & ~g_mask) | h1_bits << (g & 3);
   t->leaving[a] = h;
   t->leaving[b] = g;
   t->leaving[c] = g1;
@@ -380,20 +385,25 @@ void flip(Triangulation* t, uint32_t h) {
 }
 
 Status mark_outside(Triangulation* t) {
-  // A triangle enters the stack once, when it is marked.
+  // A triangle enters the stack once, when it is reached.
   TRY(t->stack.reserve(t->triangles.size()));
   t->stack.clear();
+  for (Triangle& triangle : t->triangles) triangle.mark = 0;
   const uint32_t seed = t->leaving[0] >> 2;
   t->triangles[seed].flags |= k_outside;
+  t->triangles[seed].mark = 1;
   t->stack.push_reserved(seed);
   while (!t->stack.empty()) {
     const uint32_t triangle = t->stack.back();
+    const uint32_t flags = t->triangles[triangle].flags;
     t->stack.pop();
-    for (uint32_t h = 4 * triangle; h < 4 * triangle + 3; ++h) {
-      const uint32_t g = t->twin(h);
-      if (g == k_none || t->constrained(h) || (t->triangles[g >> 2].flags & k_outside) != 0)
-        continue;
-      t->triangles[g >> 2].flags |= k_outside;
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t g = t->twin(4 * triangle + i);
+      if (g == k_none || t->triangles[g >> 2].mark != 0) continue;
+      const bool divides = (flags & k_border << i) != 0;
+      const bool outside = ((flags & k_outside) != 0) != divides;
+      t->triangles[g >> 2].mark = 1;
+      if (outside) t->triangles[g >> 2].flags |= k_outside;
       t->stack.push_reserved(g >> 2);
     }
   }

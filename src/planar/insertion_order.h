@@ -3,7 +3,7 @@
 // slow.
 //
 // In: points with finite coordinates. Out: a permutation of their indices, the same in every run.
-// Cost: O(n log n), 16 bytes a point of scratch.
+// Cost: O(n), 32 bytes a point of scratch.
 // Source: N. Amenta, S. Choi, G. Rote, "Incremental Constructions con BRIO", 2003; D. Hilbert,
 // "Ueber die stetige Abbildung einer Linie auf ein Flaechenstueck", 1891.
 #pragma once

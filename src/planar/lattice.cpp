@@ -20,6 +20,7 @@ struct ClearedEdge {
   double radius;
   double low, high;  // the rows concerned
   uint32_t index;
+  bool border;
 };
 
 // What an edge forbids on one row; `crosses`: the inside begins or ends in between.
@@ -49,24 +50,26 @@ static double round_down(double x) {
   return whole > x ? whole - 1.0 : whole;
 }
 
-static LatticeFrame frame_of(Span<const Vec2> border, double spacing) {
-  LatticeFrame frame = {border[0], {1.0, 0.0}, spacing};
+static LatticeFrame frame_of(Span<const LatticeObstacle> obstacles, double spacing) {
+  LatticeFrame frame = {obstacles[0].a, {1.0, 0.0}, spacing};
   double longest = 0.0;
-  for (size_t i = 0; i < border.size(); ++i) {
-    const Vec2 along = border[i + 1 < border.size() ? i + 1 : 0] - border[i];
+  for (const LatticeObstacle& edge : obstacles) {
+    const Vec2 along = edge.b - edge.a;
     const double norm = length(along);
     if (norm > longest * (1.0 + 1e-9)) {  // rounding must not choose between equal edges
       longest = norm;
-      frame = {border[i], (1.0 / norm) * along, spacing};
+      frame = {edge.a, (1.0 / norm) * along, spacing};
     }
   }
   return frame;
 }
 
-static ClearedEdge clear_edge(const LatticeFrame& frame, const Vec2& a, const Vec2& b,
+static ClearedEdge clear_edge(const LatticeFrame& frame, const LatticeObstacle& obstacle,
                               uint32_t index) {
-  ClearedEdge edge = {frame.enter(a), frame.enter(b), 0.0, 0.0, 0.0, index};
-  edge.radius = k_clearance + std::fabs(length(edge.b - edge.a) - 1.0) / k_size_gradient;
+  ClearedEdge edge = {frame.enter(obstacle.a), frame.enter(obstacle.b), 0.0, 0.0, 0.0, index,
+                      obstacle.border};
+  const double size = obstacle.size / frame.spacing;
+  edge.radius = k_clearance + std::fabs(size - 1.0) / k_size_gradient;
   edge.low = smaller(edge.a.y, edge.b.y) - edge.radius;
   edge.high = larger(edge.a.y, edge.b.y) + edge.radius;
   return edge;
@@ -93,7 +96,8 @@ static ClearedPart cleared_part(const ClearedEdge& edge, double y) {
   const double norm = length(along);
   const double scaled = norm > 0.0 ? edge.radius / norm : 0.0;
   const Vec2 across = {-scaled * along.y, scaled * along.x};
-  ClearedPart part = {DBL_MAX, -DBL_MAX, edge.index, (edge.a.y <= y) != (edge.b.y <= y)};
+  ClearedPart part = {DBL_MAX, -DBL_MAX, edge.index,
+                      edge.border && (edge.a.y <= y) != (edge.b.y <= y)};
   widen_by_disc(edge.a, edge.radius, y, &part);
   widen_by_disc(edge.b, edge.radius, y, &part);
   widen_by_segment(edge.a + across, edge.b + across, y, &part);
@@ -123,10 +127,10 @@ static Status fill_row(const LatticeFrame& frame, double row, Span<ClearedPart> 
   return {};
 }
 
-Status lattice_points(Span<const Vec2> border, double spacing, double expected,
+Status lattice_points(Span<const LatticeObstacle> obstacles, double spacing, double expected,
                       Array<Vec2>* points) {
-  const uint32_t count = static_cast<uint32_t>(border.size());
-  const LatticeFrame frame = frame_of(border, spacing);
+  const uint32_t count = static_cast<uint32_t>(obstacles.size());
+  const LatticeFrame frame = frame_of(obstacles, spacing);
   Array<ClearedEdge> edges(points->context());
   Array<uint32_t> active(points->context());
   Array<ClearedPart> parts(points->context());
@@ -138,10 +142,11 @@ Status lattice_points(Span<const Vec2> border, double spacing, double expected,
   double high = -DBL_MAX;
   double reach = 0.0;
   for (uint32_t i = 0; i < count; ++i) {
-    edges.push_reserved(clear_edge(frame, border[i], border[i + 1 < count ? i + 1 : 0], i));
-    low = smaller(low, edges[i].a.y);
-    high = larger(high, edges[i].a.y);
+    edges.push_reserved(clear_edge(frame, obstacles[i], i));
+    low = smaller(low, smaller(edges[i].a.y, edges[i].b.y));
+    high = larger(high, larger(edges[i].a.y, edges[i].b.y));
     reach = larger(reach, larger(std::fabs(edges[i].a.x), std::fabs(edges[i].a.y)));
+    reach = larger(reach, larger(std::fabs(edges[i].b.x), std::fabs(edges[i].b.y)));
   }
   if (!(reach < k_greatest_reach)) return {};
   double work = (high - low) / k_row_height;

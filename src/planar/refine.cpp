@@ -100,7 +100,7 @@ static bool is_clear(const Triangulation& t, const Proposal& proposal) {
     const Vec2 a = t.points[t.outline[i].vertex] - proposal.point;
     const double aa = dot(a, a);
     if (!(aa >= least * least)) return false;
-    if (t.outline[i].constrained == 0) continue;
+    if ((t.outline[i].bits & 1) == 0) continue;
     const Vec2 b = t.points[t.outline[i + 1 < count ? i + 1 : 0].vertex] - proposal.point;
     if (dot(a, b) < k_lens_cosine * std::sqrt(aa * dot(b, b))) return false;
   }

@@ -121,11 +121,24 @@ static Status relax_vertex(Triangulation* t, Span<const double> sizes, Span<uint
   return {};
 }
 
-Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, int sweeps) {
+// Those that may want to move: loose ones and the neighbours of loose or held ones.
+static void wake(const Triangulation& t, uint32_t first_free, uint32_t first_loose,
+                 Span<uint8_t> awake) {
+  const auto at_rest = [&](uint32_t v) { return v >= first_free && v < first_loose; };
+  for (const Triangle& triangle : t.triangles) {
+    const uint32_t* v = triangle.vertex;
+    if (at_rest(v[0]) && at_rest(v[1]) && at_rest(v[2])) continue;
+    awake[v[0]] = awake[v[1]] = awake[v[2]] = 1;
+  }
+}
+
+Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, uint32_t first_loose,
+             int sweeps) {
   Context& context = t->points.context();
   const uint32_t count = static_cast<uint32_t>(t->points.size());
   Array<uint8_t> awake(context);
-  TRY(awake.assign(count, 1));
+  TRY(awake.assign(count, 0));
+  wake(*t, first_free, first_loose, awake.span());
   t->stack.clear();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (uint32_t v = first_free; v < count; ++v) {

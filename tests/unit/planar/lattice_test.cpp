@@ -23,7 +23,12 @@ std::vector<Vec2> lattice_of(const std::vector<Vec2>& border, double spacing,
                              double expected = 1e6) {
   Context context({allocate, release, nullptr}, 0, {});
   Array<Vec2> points(context);
-  REQUIRE(lattice_points({border.data(), border.size()}, spacing, expected, &points).ok());
+  std::vector<LatticeObstacle> edges;
+  for (size_t i = 0; i < border.size(); ++i) {
+    const Vec2 a = border[i], b = border[(i + 1) % border.size()];
+    edges.push_back({a, b, length(b - a), true});
+  }
+  REQUIRE(lattice_points({edges.data(), edges.size()}, spacing, expected, &points).ok());
   return {points.begin(), points.end()};
 }
 

@@ -76,7 +76,7 @@ TEST_CASE("random points become even, the border stays, the triangulation stays 
     const std::vector<double> sines_before = sorted_sines(t);
     Array<double> sizes(heap.context);
     REQUIRE(sizes.assign(t.points.size(), 1.0 / 12).ok());
-    REQUIRE(relax(&t, sizes.span(), first_free, 20).ok());
+    REQUIRE(relax(&t, sizes.span(), first_free, first_free, 20).ok());
     CHECK(std::memcmp(before.data(), t.points.data(), first_free * sizeof(Vec2)) == 0);
     const std::vector<double> sines = sorted_sines(t);
     CHECK(sines[0] >= sines_before[0]);
@@ -112,10 +112,10 @@ TEST_CASE("a vertex whose neighbours are at the wished distance stays") {
   REQUIRE(mark_outside(&t).ok());
   Array<double> sizes(heap.context);
   REQUIRE(sizes.assign(t.points.size(), 1.0).ok());
-  REQUIRE(relax(&t, sizes.span(), 10, 5).ok());
+  REQUIRE(relax(&t, sizes.span(), 10, 10, 5).ok());
   CHECK((t.points[10].x == 0.0 && t.points[10].y == 0.0));
   // Put off its place, it comes back to within the least step.
   t.points[10] = {0.3, -0.2};
-  REQUIRE(relax(&t, sizes.span(), 10, 20).ok());
+  REQUIRE(relax(&t, sizes.span(), 10, 10, 20).ok());
   CHECK(length(t.points[10]) < 0.02);
 }
