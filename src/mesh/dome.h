@@ -1,13 +1,14 @@
-// Raises a mesh inside closed loops so that it leaves them along their normals: the clamped plate
-// in every coordinate.
+// Raises a mesh inside closed loops so that it leaves them along their normals, curved as they are.
 //
 // In: the loops with unit normals, triangles over their vertices and inner points, all positions.
-// Out: inner positions that minimise the square of the Laplacian, in the metric of the mesh as
-// given, among those whose derivative across the loops is the unit conormal that points into the
-// mesh (one, because the loops keep their lengths). Where a normal is not known the derivative is
-// free. O(vertices^1.5) or so, one factorisation. Source: A. Jacobson, E. Tosun, O. Sorkine, D.
-// Zorin, "Mixed Finite Elements for Variational Surface Modeling", 2010 (curve boundary
-// conditions).
+// Out: inner positions whose Laplacian, in the metric of the mesh as given, fits -2 h n best in the
+// square, n being the normals of that mesh, among those whose derivative across the loops is the
+// unit conormal that points into the mesh (one, because the loops keep their lengths). h is one
+// number: the mean normal curvature of the loops where a single loop is closed like a sphere, half
+// of it where several are joined like the ends of a tube. Where a normal is not known the
+// derivative is free. Repeated, it tends to spheres and tubes. One factorisation. Source: A.
+// Jacobson, E. Tosun, O. Sorkine, D. Zorin, "Mixed Finite Elements for Variational Surface
+// Modeling", 2010 (curve boundary conditions).
 #pragma once
 
 #include "mesh/loop_mesh.h"

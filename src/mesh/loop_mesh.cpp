@@ -11,6 +11,8 @@ static constexpr uint32_t k_most_kept = 150;
 // Loops in a plane have the same area however they are cut: short edges decide there, so that
 // rounding does not.
 static constexpr double k_weight_of_edges = 1e-4;
+// Two discs in the ends of a tube have less area than the tube; its normals speak against them.
+static constexpr double k_weight_of_normals = 8.0;
 // Areas below this share of the squared perimeter, and angles of about this size, are none.
 static constexpr double k_no_area = 1e-10;
 
@@ -197,8 +199,9 @@ static double triangle_weight(const Kept& kept, uint32_t i, uint32_t j, uint32_t
   const Vec3 a = position[v] - position[u], b = position[w] - position[u];
   const Vec3 across = cross(a, b), c = b - a;
   const Vec3 facing = unit(normal[u] + normal[v] + normal[w]);
-  // |across| / 2 is the area, so this is area * (1 + 2 (1 - cos)) without a division.
-  return 1.5 * length(across) - dot(across, facing) +
+  // |across| / 2 is the area, so this is area * (1 + k (1 - cos)) without a division.
+  return 0.5 * ((1.0 + k_weight_of_normals) * length(across) -
+                k_weight_of_normals * dot(across, facing)) +
          k_weight_of_edges * (dot(a, a) + dot(b, b) + dot(c, c));
 }
 

@@ -141,19 +141,22 @@ static Status take_domain(const Network& network, const CurveVertices& vertices,
   return {};
 }
 
-static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
-  const Chord edge = {a < b ? a : b, a < b ? b : a, k_none};
-  size_t low = 0, high = scratch.curve_edge.size();
+static bool find_edge(Span<const Chord> sorted, uint32_t a, uint32_t b) {
+  const Chord edge = {a, b, k_none};
+  size_t low = 0, high = sorted.size();
   while (low < high) {
     const size_t middle = low + (high - low) / 2;
-    if (before(scratch.curve_edge[middle], edge)) {
+    if (before(sorted[middle], edge)) {
       low = middle + 1;
     } else {
       high = middle;
     }
   }
-  return low < scratch.curve_edge.size() && scratch.curve_edge[low].a == edge.a &&
-         scratch.curve_edge[low].b == edge.b;
+  return low < sorted.size() && sorted[low].a == a && sorted[low].b == b;
+}
+
+static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
+  return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
 }
 
 static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
@@ -185,13 +188,46 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   return {};
 }
 
+// Whether the triangles lie on the left of every edge of the loops: holes run clockwise, the outer
+// loop does not.
+static bool on_the_left(const PatchScratch& scratch, Array<Chord>* directed) {
+  sort(directed->span(), before);
+  for (size_t h = 0; h < scratch.planar.triangles.size(); ++h) {
+    const uint32_t a = scratch.planar.triangles[h];
+    const uint32_t b = scratch.planar.triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    if (find_edge(directed->span(), b, a)) return false;
+  }
+  return true;
+}
+
 static Status mesh_flat(double spacing, PatchScratch* scratch) {
   Context& context = scratch->vertex.context();
+  const Border& border = scratch->border;
   round_to_grid(scratch->flat.span(), &spacing);
-  const bool simple =
-      scratch->border.loops() == 1 && scratch->loop.size() == scratch->vertex.size();
-  if (simple) return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
-  return fail(Code::patch_folded, "the patch has several loops");
+  if (border.loops() == 1 && border.size() == scratch->vertex.size()) {
+    return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
+  }
+  Array<uint32_t> edges(context);
+  Array<Chord> directed(context);
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const uint32_t a = scratch->loop[i], b = scratch->loop[next_on_border(border, l, i)];
+      TRY(edges.push(a));
+      TRY(edges.push(b));
+      TRY(directed.push({a, b, k_none}));
+    }
+  }
+  const planar::Region region = {scratch->flat.span(), edges.span(), scratch->inner_edge.span(),
+                                 false};
+  Status status = planar::mesh_region(context, region, spacing, &scratch->planar);
+  const bool outside = status.code == Code::bad_argument || status.code == Code::open_network;
+  if (outside) status = fail(Code::patch_folded, "a curve inside the patch leaves it");
+  status.place = {};  // its vertices are ours
+  TRY(status);
+  if (!on_the_left(*scratch, &directed)) {
+    return fail(Code::patch_without_plane, "a loop of the patch runs the wrong way round");
+  }
+  return {};
 }
 
 // `least_facing` as in mesh_patches.
@@ -220,10 +256,40 @@ static Status mesh_in_plane(const Plane& plane, double spacing, double least_fac
   return {};
 }
 
-// A triangulation of little area, raised from its border along the normals, refined where that
-// stretched it, and raised again.
-static Status mesh_in_space(double spacing, PatchScratch* scratch) {
+// Whether some triangle is so thin that the systems to come would be singular.
+static bool has_needles(Span<const Vec3> position, Span<const uint32_t> triangle) {
+  constexpr double k_needle = 1e-5;
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    const Vec3 a = position[triangle[t + 1]] - position[triangle[t]];
+    const Vec3 b = position[triangle[t + 2]] - position[triangle[t]], c = b - a;
+    if (!(length(cross(a, b)) > k_needle * (dot(a, a) + dot(b, b) + dot(c, c)))) return true;
+  }
+  return false;
+}
+
+// Raises the mesh of scratch->spatial from its border along the normals, refines it where that
+// stretched it, and raises it again. It stays as it was where this makes needles of triangles.
+static Status raise_patch(const mesh::Loops& loops, double spacing, PatchScratch* scratch) {
   constexpr int k_rounds = 4;
+  Context& context = scratch->vertex.context();
+  Array<Vec3> place(context);
+  Array<uint32_t> triangle(context);
+  TRY(place.copy(scratch->place.span()));
+  TRY(triangle.copy(scratch->spatial.triangle.span()));
+  for (int round = 0; round < k_rounds; ++round) {
+    if (round > 0) TRY(mesh::refine_loops(context, spacing, loops.start, &place, &triangle));
+    if (has_needles(place.span(), triangle.span())) return {};
+    const Status raised = mesh::raise_dome(context, loops, triangle.span(), place.span());
+    if (raised.code == Code::not_positive_definite) return {};
+    TRY(raised);
+  }
+  if (has_needles(place.span(), triangle.span())) return {};
+  scratch->place = static_cast<Array<Vec3>&&>(place);
+  scratch->spatial.triangle = static_cast<Array<uint32_t>&&>(triangle);
+  return {};
+}
+
+static Status mesh_in_space(double spacing, PatchScratch* scratch) {
   Context& context = scratch->vertex.context();
   const size_t n = scratch->vertex.size();
   if (n != scratch->border.size()) {
@@ -235,13 +301,7 @@ static Status mesh_in_space(double spacing, PatchScratch* scratch) {
   TRY(mesh::mesh_loops(context, loops, spacing, &scratch->spatial));
   TRY(scratch->place.copy(scratch->position.span()));
   for (const Vec3& p : scratch->spatial.inner) TRY(scratch->place.push(p));
-  for (int round = 0; round < k_rounds; ++round) {
-    const Span<const uint32_t> triangle = scratch->spatial.triangle.span();
-    TRY(mesh::raise_dome(context, loops, triangle, scratch->place.span()));
-    if (round + 1 == k_rounds) break;
-    TRY(mesh::refine_loops(context, spacing, loops.start, &scratch->place,
-                           &scratch->spatial.triangle));
-  }
+  TRY(raise_patch(loops, spacing, scratch));
   return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }
 

@@ -1,6 +1,7 @@
 #include "smooth/fair.h"
 
 #include "mesh/care.h"
+#include "mesh/curvature.h"
 #include "smooth/displace.h"
 #include "smooth/system.h"
 
@@ -51,23 +52,36 @@ static Status harmonic_start(Context& context, const FairMesh& mesh, double* res
   return system.solve({}, {}, mesh.position, residual);
 }
 
+namespace {
+
 // The paper's steps are linear in what the curves hold, so they flatten a patch whose normals
-// cancel out; those with a place of their own go back there, with the triangles that they came
-// with.
-static Status put_in_place(Context& context, const FairMesh& mesh, uint32_t patches,
-                           Span<const uint32_t> triangle) {
+// cancel out. Vertices with a place of their own are held there meanwhile.
+struct Placed {
+  Array<uint8_t> on_curve, held;
+  Array<Vec3> normal;
+
+  explicit Placed(Context& context) : on_curve(context), held(context), normal(context) {}
+};
+
+}  // namespace
+
+static Status put_in_place(const FairMesh& mesh, Placed* placed, FairMesh* fixed) {
+  *fixed = mesh;
   if (mesh.placed.empty()) return {};
-  Array<uint8_t> placed(context);
-  TRY(placed.assign(patches, 0));
-  for (size_t h = 0; h < triangle.size(); ++h) {
-    if (mesh.placed[triangle[h]]) placed[mesh.patch[h / 3]] = 1;
-  }
-  for (size_t h = 0; h < triangle.size(); ++h) {
-    if (placed[mesh.patch[h / 3]]) mesh.triangle[h] = triangle[h];
-  }
+  TRY(placed->on_curve.copy(mesh.on_curve));
+  TRY(placed->held.copy(mesh.held));
+  TRY(placed->normal.resize(mesh.position.size()));
   for (size_t v = 0; v < mesh.placed.size(); ++v) {
     if (mesh.placed[v]) mesh.position[v] = mesh.start[v];
   }
+  mesh::vertex_normals(mesh.position, mesh.triangle, placed->normal.span());
+  for (size_t v = 0; v < mesh.placed.size(); ++v) {
+    if (!mesh.placed[v]) continue;
+    placed->on_curve[v] = placed->held[v] = 1;
+    mesh.normal[v] = placed->normal[v];
+  }
+  fixed->on_curve = placed->on_curve.span();
+  fixed->held = placed->held.span();
   return {};
 }
 
@@ -169,14 +183,14 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
             FairReport* report) {
   Array<mesh::TriangleShape> shapes(context);
   Array<Vec3> curve_normal(context);
-  Array<uint32_t> triangle(context);
+  Placed placed(context);
+  FairMesh fixed;
   Guard guard(context);
-  if (!mesh.placed.empty()) TRY(triangle.copy(mesh.triangle));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
+  TRY(put_in_place(mesh, &placed, &fixed));
   for (int k = 0; k < options.paper_steps; ++k) {
-    TRY(paper_step(context, mesh, &shapes, report));
+    TRY(paper_step(context, fixed, &shapes, report));
   }
-  TRY(put_in_place(context, mesh, patches, triangle.span()));
   // Soft curves take the normals that the last step smoothed; held ones have those given.
   TRY(curve_normal.copy(mesh.normal));
   TRY(prepare_guard(mesh, patches, &guard));
