@@ -82,7 +82,7 @@ enum {
   WSK_ERROR_TOO_LARGE = 5,
   /* No curve, no vertex or no triangle was given. */
   WSK_ERROR_EMPTY = 6,
-  /* A curve of fewer than two samples, or a closed one of fewer than three. */
+  /* A curve without samples, or a closed one of fewer than three. */
   WSK_ERROR_TOO_FEW_SAMPLES = 7,
   /* A coordinate or a normal is NaN. */
   WSK_ERROR_NOT_A_NUMBER = 8,
@@ -101,7 +101,8 @@ enum {
   WSK_ERROR_INDEX_OUT_OF_RANGE = 14,
   /* Samples of the same node lie farther apart than 1e-9 of the diagonal of the bounding box. */
   WSK_ERROR_NODE_MISMATCH = 15,
-  /* A curve ends where no other curve passes, so the network does not bound patches there. */
+  /* A curve or a point bounds no patch and lies inside none; a boundary curve has the surface on both
+     sides, or nothing tells on which. */
   WSK_ERROR_OPEN_NETWORK = 16,
   /* Normals turn by more than 120 degrees between neighbouring samples, oppose each other at a
      node, or leave the order of the curves round a node undecided. */
@@ -113,7 +114,7 @@ enum {
   WSK_ERROR_PATCH_WITHOUT_PLANE = 19,
   /* The border of a patch crosses itself in space, or encloses nothing. */
   WSK_ERROR_PATCH_FOLDED = 20,
-  /* A patch bounded by several loops, or by a curve passed on both sides. */
+  /* A patch with a handle: its border passes a curve on both sides, round and round. */
   WSK_ERROR_PATCH_SEVERAL_LOOPS = 21,
   /* wsk_smooth_mesh: the triangles are no oriented manifold, or one of them has no area. */
   WSK_ERROR_BAD_MESH = 22,
@@ -233,6 +234,11 @@ typedef struct wsk_options {
   /* A clock in milliseconds from any origin, for the times in the report; without it they are 0. */
   double (*now)(void* user);
   void* now_user;
+
+  /* Non-zero: a patch that cannot be made is left out, and the surface ends round it; which ones these
+     are, and why, stands in wsk_surface_view. The call fails only where no patch can be made, or
+     where those that are left touch in a node without sharing a curve. */
+  int32_t partial;
 } wsk_options;
 
 /* Writes the defaults into *options. `size` is sizeof(wsk_options) as the caller knows it. Does
@@ -291,6 +297,7 @@ typedef struct wsk_report {
   size_t peak_bytes;    /* the most memory held at any time during the call */
   double stage_ms[WSK_STAGE_COUNT]; /* 0 without a clock */
   double total_ms;
+  uint32_t failed_patches; /* left out because of wsk_options.partial */
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
@@ -302,7 +309,17 @@ void wsk_report_init(wsk_report* report, size_t size);
 
 typedef struct wsk_surface wsk_surface;
 
-/* One curve: `sample_count` points in order, each with the surface normal there. */
+/* How a patch got its triangles before the smoothing: wsk_surface_view.patch_way. */
+enum {
+  /* In the plane across the mean normal of its border. */
+  WSK_PATCH_PLANE = 0,
+  /* In space, because no plane shows it well: a triangulation of little area, raised from the border
+     along its normals. */
+  WSK_PATCH_MINIMAL_AREA = 1
+};
+
+/* One curve: `sample_count` points in order, each with the surface normal there. An open curve of one
+   sample is a point that the surface passes through; it may lack its normal. */
 typedef struct wsk_curve {
   size_t sample_count;
   /* x y z of each sample; the next sample begins position_stride bytes later (0: 24, packed). */
@@ -345,10 +362,14 @@ typedef struct wsk_curve {
  * end at a node.
  *
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
- * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen without
- * folds from the mean of its normals (for ITERATED and FAIR: and not too steeply, the mean cosine
+ * tip of the node's normal. Parts of a network that nothing connects are brought together: what lies
+ * inside a patch, seen in its plane, becomes part of it (a boundary loop is a hole in it, another
+ * closed curve bounds two patches, dangling curves and points hold the surface), and loops that face
+ * each other along the surface bound a band, if that takes less area than closing both. Where a
+ * patch's border is seen without folds from the mean of its normals (for ITERATED and FAIR: and not too steeply, the mean cosine
  * between them being at least 1/4) it is triangulated in that plane, else by a triangulation of
- * least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995).
+ * least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995),
+ * raised along the normals where these do not agree with any plane: one great circle gives a sphere.
  *
  * Where sharp curves meet, the node's normal is the mean of their sides; where some of these are
  * not known it is estimated from the directions of the curves, outward as the neighbours tell. Round
@@ -411,6 +432,11 @@ typedef struct wsk_surface_view {
   const uint32_t* curve_edges;    /* 2 an edge: the curves as resampled, in their direction */
   const uint32_t*
       curve_edge_curve; /* 1 an edge: the caller's curve; both null for a caller's mesh */
+  const uint8_t* patch_way;           /* 1 a patch: WSK_PATCH_... */
+  const wsk_status* patch_status;     /* 1 a patch: WSK_OK, or why it was left out */
+  const char* const* patch_sentence;  /* 1 a patch: "", or what was wrong in words; static text */
+  const uint32_t* patch_curve_start;  /* patch_count + 1: patch p has the caller's curves */
+  const uint32_t* patch_curves;       /* patch_curves[patch_curve_start[p]] and so on, ascending */
 } wsk_surface_view;
 
 /* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is

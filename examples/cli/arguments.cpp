@@ -51,6 +51,8 @@ options:
                      standard deviation in the units of the input
   --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
                      smoothed away
+  --partial          leave out patches that cannot be made, instead of failing; the report lists
+                     them
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
                      written too, with the place of the fault, if no surface can be built from
                      a network that could be read
@@ -164,6 +166,8 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.version = true;
   } else if (words.is_flag("--quiet")) {
     arguments.quiet = true;
+  } else if (words.is_flag("--partial")) {
+    arguments.partial = true;
   } else if (words.is("-o")) {
     arguments.output = words.value();
   } else if (words.is("--spacing")) {

@@ -24,6 +24,7 @@ struct Arguments {
   bool quiet = false;
   bool help = false;
   bool version = false;
+  bool partial = false;
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

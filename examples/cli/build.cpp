@@ -61,6 +61,7 @@ BuildResult build_surface(const Network& network, const Arguments& arguments,
   options.smoothing = arguments.smoothing;
   options.noise = arguments.noise;
   options.soft = arguments.soft;
+  options.partial = arguments.partial ? 1 : 0;
   options.cancel = callbacks.cancel;
   options.cancel_user = callbacks.user;
   options.progress = callbacks.progress;

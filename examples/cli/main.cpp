@@ -39,7 +39,7 @@ static void write_outputs(const Arguments& arguments, const Network& network,
     files.add(arguments.image, png_bytes(draw_picture(surface, network, arguments.up_axis)));
   }
   if (!arguments.report.empty()) {
-    files.add(arguments.report, report_json(arguments, report));
+    files.add(arguments.report, report_json(arguments, report, &surface));
   }
   if (cancel_wanted()) throw Failure(arguments.input + ": cancelled");
   files.commit();

@@ -95,9 +95,39 @@ std::string stages_json(const wsk_report& report) {
   return stages.close();
 }
 
+const char* way_name(uint8_t way) {
+  return way == WSK_PATCH_PLANE ? "plane" : "minimal_area";
+}
+
+// The patches that were not simply meshed in their plane, those that were left out among them.
+std::string patches_json(const wsk_surface_view* surface) {
+  std::string list;
+  const uint32_t count = surface == nullptr ? 0 : surface->patch_count;
+  for (uint32_t p = 0; p < count; ++p) {
+    const bool made = surface->patch_status[p] == WSK_OK;
+    if (made && surface->patch_way[p] == WSK_PATCH_PLANE) continue;
+    JsonObject patch("    ");
+    patch.index("patch", p);
+    patch.text("status", wsk_status_name(surface->patch_status[p]));
+    if (made) {
+      patch.text("way", way_name(surface->patch_way[p]));
+    } else {
+      patch.text("sentence", surface->patch_sentence[p]);
+    }
+    std::string curves;
+    for (uint32_t i = surface->patch_curve_start[p]; i < surface->patch_curve_start[p + 1]; ++i) {
+      curves += (curves.empty() ? "" : ", ") + std::to_string(surface->patch_curves[i]);
+    }
+    patch.member("curves", "[" + curves + "]");
+    list += (list.empty() ? "\n    " : ",\n    ") + patch.close();
+  }
+  return list.empty() ? "[]" : "[" + list + "\n  ]";
+}
+
 }  // namespace
 
-std::string report_json(const Arguments& arguments, const wsk_report& report) {
+std::string report_json(const Arguments& arguments, const wsk_report& report,
+                        const wsk_surface_view* surface) {
   JsonObject json("");
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
@@ -128,6 +158,8 @@ std::string report_json(const Arguments& arguments, const wsk_report& report) {
   json.count("cg_iterations", report.cg_iterations);
   json.count("minimal_area_patches", report.minimal_area_patches);
   json.count("guarded_patches", report.guarded_patches);
+  json.count("failed_patches", report.failed_patches);
+  json.member("special_patches", patches_json(surface));
   json.number("noise_position", report.noise_position);
   json.number("noise_normal", report.noise_normal);
   json.number("constraint_distance_max", report.constraint_distance_max);

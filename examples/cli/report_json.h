@@ -10,7 +10,10 @@
 
 namespace wireskin_cli {
 
-std::string report_json(const Arguments& arguments, const wsk_report& report);
+// `surface`: of the result, null where there is none; of its patches those are listed that were not
+// meshed in their plane.
+std::string report_json(const Arguments& arguments, const wsk_report& report,
+                        const wsk_surface_view* surface = nullptr);
 
 // The text in quotes, escaped.
 std::string json_string(std::string_view text);

@@ -423,7 +423,10 @@ Status group_patches(const CurveVertices& vertices, Network* network) {
   Context& context = network->segment.context();
   Grouping g(context, vertices, network);
   TRY(take_components(&g));
-  if (g.components.members.count() == 1) return check_rings(&g);
+  if (g.components.members.count() == 1) {
+    TRY(check_rings(&g));
+    return check_holders(g);
+  }
   TRY(find_enclosing(*network, vertices, g.components, &g.enclosing));
   TRY(join_enclosed(&g));
   TRY(join_facing(&g));

@@ -36,4 +36,9 @@ struct SampleNumbers {
 Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
                   Array<uint32_t>* node_of_sample);
 
+// Ends of open curves that nothing else meets, and points (curves of one sample), become nodes too,
+// without a number and behind all others. `closed`: of each curve.
+Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
+                      Span<uint32_t> node_of_sample);
+
 }  // namespace wireskin::network

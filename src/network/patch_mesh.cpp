@@ -9,6 +9,10 @@
 
 namespace wireskin::network {
 
+// Where the normals agree less with the axis of the border, what spreads linearly from it is flat:
+// the patch starts raised along them.
+static constexpr double k_least_closing = 0.3;
+
 namespace {
 
 // An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a
@@ -25,9 +29,10 @@ struct Builder {
   Array<Vec3> corner;
   Array<Chord> chord;
   Array<uint32_t> patch_start;  // first triangle of each patch, before chords are split
+  Array<uint8_t> raised;        // of each patch
 
   explicit Builder(Context& context, PatchMesh* result)
-      : mesh(result), corner(context), chord(context), patch_start(context) {}
+      : mesh(result), corner(context), chord(context), patch_start(context), raised(context) {}
 };
 
 // Memory for one patch, reused: the border, the vertices of the patch that are on curves (those of
@@ -48,6 +53,7 @@ struct PatchScratch {
   mesh::LoopMesh spatial;
   Array<Vec3> place;
   Array<Vec3> inner;
+  bool raised = false;
 
   explicit PatchScratch(Context& context)
       : border(context),
@@ -67,12 +73,14 @@ struct PatchScratch {
 
 }  // namespace
 
+static bool may_be_left_out(const Status& status) {
+  return status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
+         status.code == Code::patch_several_loops;
+}
+
 // Adds the place to what went wrong with a patch: its number and a curve of its border.
 static Status at_patch(Status status, const Network& network, uint32_t patch) {
-  const bool geometric = status.code == Code::patch_without_plane ||
-                         status.code == Code::patch_folded ||
-                         status.code == Code::patch_several_loops;
-  if (!geometric) return status;
+  if (!may_be_left_out(status)) return status;
   status.place.patch = patch;
   if (status.place.curve == k_none) {
     status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
@@ -178,7 +186,7 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   }
   for (const Vec3& p : scratch.inner) {
     TRY(mesh->start.push(p));
-    TRY(mesh->placed.push(mesh->way.back() != PatchWay::plane));
+    TRY(mesh->placed.push(scratch.raised));
   }
   const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
   if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
@@ -301,7 +309,9 @@ static Status mesh_in_space(double spacing, PatchScratch* scratch) {
   TRY(mesh::mesh_loops(context, loops, spacing, &scratch->spatial));
   TRY(scratch->place.copy(scratch->position.span()));
   for (const Vec3& p : scratch->spatial.inner) TRY(scratch->place.push(p));
-  TRY(raise_patch(loops, spacing, scratch));
+  const Border& border = scratch->border;
+  scratch->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
+  if (scratch->raised) TRY(raise_patch(loops, spacing, scratch));
   return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }
 
@@ -315,6 +325,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   const Border& border = scratch->border;
   const double spacing = border_length(border) / static_cast<double>(border.size());
   Plane plane;
+  scratch->raised = false;
   Status status = fit_plane(border, &plane);
   if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
   if (status.ok()) {
@@ -365,7 +376,7 @@ static Status split_chord(const Chord& chord, Builder* builder) {
   }
   const uint32_t middle = mesh->vertices++;
   TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
-  TRY(mesh->placed.push(mesh->way[chord.patch] != PatchWay::plane));
+  TRY(mesh->placed.push(builder->raised[chord.patch]));
   const uint32_t* own = &builder->patch_start[chord.patch];
   const uint32_t first_split = builder->patch_start.back();
   const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
@@ -397,7 +408,7 @@ static Status split_shared_chords(const Network& network, const CurveVertices& v
 }
 
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    PatchMesh* mesh) {
+                    bool partial, PatchMesh* mesh) {
   Context& context = mesh->triangle.context();
   Builder builder(context, mesh);
   PatchScratch scratch(context);
@@ -407,10 +418,16 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
   TRY(mesh->placed.assign(mesh->vertices, 0));
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    TRY(at_patch(mesh_patch(network, vertices, least_facing, p, &scratch, &builder), network, p));
+    const Status status =
+        at_patch(mesh_patch(network, vertices, least_facing, p, &scratch, &builder), network, p);
+    TRY(mesh->status.push(status));
+    TRY(builder.raised.push(scratch.raised));
+    if (!status.ok() && !(partial && may_be_left_out(status))) return status;
+    if (!status.ok()) TRY(mesh->way.push(PatchWay::plane));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+  if (mesh->patch.empty() && !mesh->status.empty()) return mesh->status[0];
   TRY(split_shared_chords(network, vertices, &builder));
   TRY(mesh->shape.resize(mesh->patch.size()));
   for (size_t t = 0; t < mesh->shape.size(); ++t) {

@@ -91,19 +91,36 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   return {};
 }
 
+// Held vertices whose normal nobody knows, as points may be; empty where there are none.
+static Status find_bare(const Constraints& constraints, const Surface& surface,
+                        Array<uint8_t>* bare) {
+  bool any = false;
+  for (size_t v = 0; !surface.curve_edge.empty() && v < surface.position.size(); ++v) {
+    any = any || (constraints.held[v] && surface.constraint_normal[v] == Vec3{});
+  }
+  if (!any) return {};
+  TRY(bare->resize(surface.position.size()));
+  for (size_t v = 0; v < bare->size(); ++v) {
+    (*bare)[v] = constraints.held[v] && surface.constraint_normal[v] == Vec3{};
+  }
+  return {};
+}
+
 // Smooths the surface by the chosen method and measures the result.
 Status smooth_surface(Context& context, const Start& start, const Constraints& constraints,
                       smooth::Method method, Surface* surface) {
   Array<Vec3> normal(context), anchor(context);
+  Array<uint8_t> bare(context);
   TRY(normal.copy(surface->constraint_normal.span()));
   if (!constraints.cutoff.empty()) TRY(anchor.copy(surface->position.span()));
+  TRY(find_bare(constraints, *surface, &bare));
   const Workpiece piece = {surface->position.span(),
                            normal.span(),
                            surface->triangle.span(),
                            constraints.on_curve.span(),
                            constraints.held.span(),
                            start.on_border,
-                           {},
+                           bare.span(),
                            {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
                             surface->constraint_normal.span(), surface->counts.spacing},
                            start.position,
@@ -175,6 +192,7 @@ Status measure_constraints(const CurveSet& set, Span<const Vec3> given, Surface*
       if (line.empty()) TRY(line.push(surface->position[surface->curve_edge[2 * edge]]));
       TRY(line.push(surface->position[surface->curve_edge[2 * edge + 1]]));
     }
+    if (line.empty()) continue;  // a point, or a curve of patches that were left out
     const size_t first = set.start[c], count = set.start[c + 1] - first;
     const curves::LineDistance distance =
         curves::distance_to_line(given.part(first, count), line.span(), set.closed[c] != 0);

@@ -26,28 +26,6 @@ static Scene rim(double up) {
   return scene;
 }
 
-// The equator of a sphere, its two halves curves of their own: both hemispheres start as the same
-// flat disc, and what the normals ask for is out of reach of one linear step.
-static Scene equator() {
-  Scene whole = rim(0.0), scene = rim(0.0);
-  scene.name = "equator";
-  scene.curves.clear();
-  for (int half = 0; half < 2; ++half) {
-    Curve curve;
-    for (int i = 0; i <= 32; ++i) {
-      const size_t at = 3 * static_cast<size_t>((32 * half + i) % 64);
-      for (size_t k = 0; k < 3; ++k) {
-        curve.positions.push_back(whole.curves[0].positions[at + k]);
-        curve.normals.push_back(whole.curves[0].normals[at + k]);
-      }
-      curve.nodes.push_back(i == 0 || i == 32 ? static_cast<uint32_t>((half + (i == 32)) % 2)
-                                              : WSK_NONE);
-    }
-    scene.curves.push_back(curve);
-  }
-  return scene;
-}
-
 static Call built(const Scene& scene, wsk_method method) {
   wsk_options options = options_of(scene);
   options.method = method;
@@ -56,11 +34,12 @@ static Call built(const Scene& scene, wsk_method method) {
 }
 
 TEST_CASE("a patch whose displacement runs away keeps what the paper's steps gave") {
-  const Scene scene = equator();
+  // What the normals ask for is out of reach of one linear step from the plane.
+  const Scene scene = rim(0.32);
   const Call fair = built(scene, WSK_METHOD_FAIR);
   REQUIRE(fair.status == WSK_OK);
-  CHECK(fair.report.patches == 2);
-  CHECK(fair.report.guarded_patches == 2);
+  CHECK(fair.report.patches == 1);
+  CHECK(fair.report.guarded_patches == 1);
   const Call iterated = built(scene, WSK_METHOD_ITERATED);
   REQUIRE(iterated.status == WSK_OK);
   CHECK(iterated.report.guarded_patches == 0);

@@ -87,7 +87,7 @@ struct Stages {
     return status.ok();
   }
   bool mesh_patches(double spacing) {
-    if (group(spacing)) status = wireskin::network::mesh_patches(network, vertices, -1.0, &mesh);
+    if (group(spacing)) status = wireskin::network::mesh_patches(network, vertices, -1.0, false, &mesh);
     return status.ok();
   }
 
