@@ -11,8 +11,10 @@ static constexpr uint32_t k_most_kept = 150;
 // Loops in a plane have the same area however they are cut: short edges decide there, so that
 // rounding does not.
 static constexpr double k_weight_of_edges = 1e-4;
-// Two discs in the ends of a tube have less area than the tube; its normals speak against them.
-static constexpr double k_weight_of_normals = 8.0;
+// How much triangles count that face away from their normals. Two discs in the ends of a tube have
+// less area than the tube, so with several loops it must be more.
+static constexpr double k_weight_of_normals = 2.0;
+static constexpr double k_weight_of_normals_of_tubes = 8.0;
 // Areas below this share of the squared perimeter, and angles of about this size, are none.
 static constexpr double k_no_area = 1e-10;
 
@@ -200,8 +202,9 @@ static double triangle_weight(const Kept& kept, uint32_t i, uint32_t j, uint32_t
   const Vec3 across = cross(a, b), c = b - a;
   const Vec3 facing = unit(normal[u] + normal[v] + normal[w]);
   // |across| / 2 is the area, so this is area * (1 + k (1 - cos)) without a division.
-  return 0.5 * ((1.0 + k_weight_of_normals) * length(across) -
-                k_weight_of_normals * dot(across, facing)) +
+  const double weight =
+      kept.loops.count() == 1 ? k_weight_of_normals : k_weight_of_normals_of_tubes;
+  return 0.5 * ((1.0 + weight) * length(across) - weight * dot(across, facing)) +
          k_weight_of_edges * (dot(a, a) + dot(b, b) + dot(c, c));
 }
 

@@ -6,12 +6,12 @@
 // triangles over the loops' vertices (0 .. n - 1) and the inner ones (from n). Invariants: a disc,
 // or with several loops a sphere with that many holes, whose border the loops are in their
 // direction; no vertex is added on it. *mesh is written on success only. First a triangulation of
-// the loops' vertices alone by dynamic programming, least in the sum of area * (1 + 8 (1 - cos))
-// with the angle between a triangle and the mean of its normals; several loops become one by
-// bridges, the shortest along which their conormals lead. Then mesh/loop_refine.h. At most
-// k_most_kept vertices or so take part in the first, so its cost is bounded: O(n log n + inner
-// points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron",
-// 1995; P. Liepa, "Filling Holes in Meshes", 2003.
+// the loops' vertices alone by dynamic programming, least in the sum of area * (1 + k (1 - cos))
+// with the angle between a triangle and the mean of its normals, k 2 or for several loops 8;
+// several loops become one by bridges, the shortest along which their conormals lead. Then
+// mesh/loop_refine.h. At most k_most_kept vertices or so take part in the first, so its cost is
+// bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the
+// Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003.
 #pragma once
 
 #include "base/array.h"

@@ -10,6 +10,8 @@ namespace wireskin::network {
 static constexpr double k_clearly_closed = 0.5;
 // Conormals must lead to the other loop with at least this cosine in the mean.
 static constexpr double k_least_facing_cosine = 0.2;
+// And with this one where both loops are of one component, neither of them being closed alone.
+static constexpr double k_least_facing_in_component = 0.6;
 // Rule 2 looks at this many vertices of a loop at most.
 static constexpr uint32_t k_most_probes = 64;
 
@@ -208,7 +210,8 @@ static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing
 
 // The area of a band from a's probes to the nearest ones of b, more where its conormals lead
 // elsewhere; negative where they do not lead there.
-static double half_band(const Facing& a, const Facing& b, Span<const Probe> probes) {
+static double half_band(const Facing& a, const Facing& b, Span<const Probe> probes,
+                        double least_cosine) {
   double area = 0.0, cosine = 0.0;
   for (const Probe& p : probes.part(a.first, a.count)) {
     Vec3 nearest;
@@ -220,10 +223,11 @@ static double half_band(const Facing& a, const Facing& b, Span<const Probe> prob
         nearest = way;
       }
     }
+    if (least == 0.0) return -1.0;  // loops that touch
     area += 0.5 * p.share * std::sqrt(least);
     cosine += dot(p.conormal, unit(nearest)) / static_cast<double>(a.count);
   }
-  return cosine < k_least_facing_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
+  return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
 }
 
 static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<const Probe> probes,
@@ -233,10 +237,14 @@ static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<cons
     const Facing& a = facing[i];
     for (uint32_t j = 0; a.needy && j < facing.size(); ++j) {
       const Facing& b = facing[j];
-      if (g.component[a.patch] == g.component[b.patch] || (b.needy && j < i)) continue;
+      const bool same = g.component[a.patch] == g.component[b.patch];
+      if ((same && !b.needy) || a.patch == b.patch || (b.needy && j < i)) continue;
+      const double least = same ? k_least_facing_in_component : k_least_facing_cosine;
       if (length(a.centre - b.centre) > k_far * (a.radius + b.radius)) continue;
-      const double from_a = half_band(a, b, probes), from_b = half_band(b, a, probes);
-      if (from_a < 0.0 || from_b < 0.0) continue;
+      const double from_a = half_band(a, b, probes, least);
+      if (from_a < 0.0) continue;
+      const double from_b = half_band(b, a, probes, least);
+      if (from_b < 0.0) continue;
       TRY(bands->push({i, j, from_a + from_b}));
     }
     TRY(bands->context().checkpoint());
@@ -282,7 +290,9 @@ static Status join_facing(Grouping* g) {
     const bool wrong_side = (decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
                             (decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
     if (!(band.area < alone) || wrong_side) continue;
-    if (share_component(g, facing.span(), a.patch, b.patch)) continue;
+    const bool same = g->component[a.patch] == g->component[b.patch];
+    const bool both_alone = !joined[band.a] && !joined[band.b];
+    if (same ? !both_alone : share_component(g, facing.span(), a.patch, b.patch)) continue;
     decided[a.patch] = decided[b.patch] = 1;
     g->reversed[a.patch] = a.reversed;
     g->reversed[b.patch] = b.reversed;
@@ -423,10 +433,6 @@ Status group_patches(const CurveVertices& vertices, Network* network) {
   Context& context = network->segment.context();
   Grouping g(context, vertices, network);
   TRY(take_components(&g));
-  if (g.components.members.count() == 1) {
-    TRY(check_rings(&g));
-    return check_holders(g);
-  }
   TRY(find_enclosing(*network, vertices, g.components, &g.enclosing));
   TRY(join_enclosed(&g));
   TRY(join_facing(&g));

@@ -3,7 +3,7 @@
 //
 // In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same
 // network with patches of several loops and with inner segments and points. Two rules, in this
-// order; a network of one component is left as it is.
+// order; where neither applies every cycle stays a patch.
 // 1. A component enclosed by a patch in its plane (network/enclosure.h) joins it by the cycle that
 // runs clockwise there and faces the same way. A ring of boundary curves becomes a hole; what
 // bounds nothing (dangling curves, points) holds the patch's inside.
