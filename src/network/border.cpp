@@ -23,11 +23,11 @@ static Status append_loop(const Network& network, const CurveVertices& vertices,
     const uint32_t s = h / 2, edges = vertices.edges[s];
     for (uint32_t k = 0; k < edges; ++k) {
       TRY(vertex.push(segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)));
-      const Vec3& own = left_normal(network, vertices, h, k);
+      const Vec3 own = left_normal(network, vertices, h, k);
       if (k > 0 || vertices.side_start.empty()) {
         TRY(normal.push(own));
       } else {
-        const Vec3& last = left_normal(network, vertices, before, vertices.edges[before / 2]);
+        const Vec3 last = left_normal(network, vertices, before, vertices.edges[before / 2]);
         TRY(normal.push(unit(last + own)));
       }
     }

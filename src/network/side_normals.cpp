@@ -55,8 +55,7 @@ Status resample_sides(const curves::Curves& curves, const Network& network,
   return {};
 }
 
-const Vec3& left_normal(const Network& network, const CurveVertices& vertices, uint32_t h,
-                        uint32_t k) {
+Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t h, uint32_t k) {
   const uint32_t s = h / 2, edges = vertices.edges[s];
   if (vertices.side_start.empty()) {
     return vertices.normal[segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)];

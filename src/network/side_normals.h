@@ -15,7 +15,6 @@ Status resample_sides(const curves::Curves& curves, const Network& network,
 
 // The normal on the left of half-segment h at its vertex k, counted in its own direction; zero
 // where it is not known.
-const Vec3& left_normal(const Network& network, const CurveVertices& vertices, uint32_t h,
-                        uint32_t k);
+Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t h, uint32_t k);
 
 }  // namespace wireskin::network

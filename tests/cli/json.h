@@ -44,6 +44,8 @@ class JsonReader {
     blanks();
     if (peek() == '{') {
       object(path);
+    } else if (peek() == '[') {
+      array(path);
     } else if (peek() == '"') {
       values[path] = string();
     } else if (peek() == '-' || (peek() >= '0' && peek() <= '9')) {
@@ -64,6 +66,18 @@ class JsonReader {
       value(inner);
     } while (took(','));
     need(took('}'), "end of object");
+  }
+  // Item i of "list" is "list.i", their number "list.size".
+  void array(const std::string& path) {
+    take();
+    size_t count = 0;
+    if (!took(']')) {
+      do {
+        value(path + "." + std::to_string(count++));
+      } while (took(','));
+      need(took(']'), "end of array");
+    }
+    values[path + ".size"] = std::to_string(count);
   }
   std::string string() {
     std::string result;
