@@ -96,6 +96,7 @@ void report_counts(const Counts& counts, const Scale& unscale, wsk_report* repor
   report->normal_deviation_max_deg = counts.normal_deviation.greatest;
   report->dihedral_mean_deg = counts.dihedral.mean;
   report->dihedral_max_deg = counts.dihedral.greatest;
+  report->failed_patches = counts.failed_patches;
 }
 
 void report_costs(Context& context, wsk_report* report) {
@@ -215,7 +216,7 @@ static Status count_samples(const wsk_curve* curves, size_t count, size_t* total
       return fail(Code::bad_argument, "the curve has no positions", place);
     }
     *sharp = *sharp || curve.sharp != 0;
-    if (curve.normals == nullptr && curve.sharp == 0) {
+    if (curve.normals == nullptr && curve.sharp == 0 && curve.sample_count != 1) {
       return fail(Code::missing_normals, "the curve has no normals", place);
     }
     if (curve.soft - curve.soft != 0.0) {
@@ -342,6 +343,12 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   const size_t edge_curve = layout.add_array<uint32_t>(surface.curve_edge_curve.size());
   const bool has_guard = !surface.patch_guarded.empty() && !surface.curve_edge.empty();
   const size_t guarded = layout.add_array<uint8_t>(has_guard ? surface.patch_guarded.size() : 0);
+  const size_t listed = surface.patches.status.size();
+  const size_t sentences = layout.add_array<const char*>(listed);
+  const size_t statuses = layout.add_array<wsk_status>(listed);
+  const size_t ways = layout.add_array<uint8_t>(listed);
+  const size_t patch_start = layout.add_array<uint32_t>(surface.patches.curve_start.size());
+  const size_t patch_curve = layout.add_array<uint32_t>(surface.patches.curve.size());
   void* memory = nullptr;
   TRY(context.allocate(layout.bytes(), 1, &memory));
   unsigned char* block = static_cast<unsigned char*>(memory);
@@ -375,6 +382,18 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
     std::memcpy(block + guarded, surface.patch_guarded.data(), surface.patch_guarded.size());
     view.patch_guarded = block + guarded;
   }
+  const char** sentence = reinterpret_cast<const char**>(block + sentences);
+  wsk_status* status = reinterpret_cast<wsk_status*>(block + statuses);
+  for (size_t p = 0; p < listed; ++p) {
+    sentence[p] = surface.patches.status[p].sentence;
+    status[p] = static_cast<wsk_status>(surface.patches.status[p].code);
+    block[ways + p] = surface.patches.way[p];
+  }
+  view.patch_sentence = sentence;
+  view.patch_status = status;
+  view.patch_way = block + ways;
+  view.patch_curve_start = write_indices(block, patch_start, surface.patches.curve_start);
+  view.patch_curves = write_indices(block, patch_curve, surface.patches.curve);
   *out = handle;
   return context.progress(1.0);
 }
@@ -410,7 +429,7 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
                         storage.soft.span(),   storage.sharp.span(),    storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
-                             smoothing_of(options, scale)};
+                             smoothing_of(options, scale), options.partial != 0};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default
     return fail(Code::too_large, "the spacing is too small for the network");
   }

@@ -1,5 +1,8 @@
 #include "surface.h"
 
+#include "base/sort.h"
+#include "network/group.h"
+#include "network/partial.h"
 #include "network/patch_mesh.h"
 #include "surface/finish.h"
 #include "surface/fit.h"
@@ -20,6 +23,56 @@ static Status list_curve_edges(const network::Network& network,
       TRY(surface->curve_edge_curve.push(network.segment[s].curve));
     }
   }
+  return {};
+}
+
+// The curves of each patch, each once.
+static Status list_patch_curves(const network::Network& network, PatchList* patches) {
+  TRY(patches->curve_start.push(0));
+  Array<uint32_t> own(patches->curve.context());
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    own.clear();
+    for (uint32_t h : network.cycle(p)) TRY(own.push(network.segment[h / 2].curve));
+    for (uint32_t s : network.inner[p]) TRY(own.push(network.segment[s].curve));
+    // Equal numbers are equal in every way, so their order does not matter.
+    sort(own.span(), [](uint32_t a, uint32_t b) { return a < b; });
+    for (size_t i = 0; i < own.size(); ++i) {
+      if (i == 0 || own[i] != own[i - 1]) TRY(patches->curve.push(own[i]));
+    }
+    TRY(patches->curve_start.push(static_cast<uint32_t>(patches->curve.size())));
+  }
+  return {};
+}
+
+// Meshes all patches; with `partial` those that can be, the network being cut down to them.
+// `original`: the number of each patch that is left; empty where all are.
+static Status make_patches(const curves::Curves& fitted, const Settings& settings,
+                           Array<network::Node>* nodes, network::Network* network,
+                           network::CurveVertices* vertices, network::PatchMesh* patches,
+                           Array<uint32_t>* original, Surface* surface) {
+  const bool in_space =
+      settings.method == smooth::Method::iterated || settings.method == smooth::Method::fair;
+  const double least_facing = in_space ? k_least_facing : -1.0;
+  Counts* counts = &surface->counts;
+  Context& context = nodes->context();
+  TRY(list_patch_curves(*network, &surface->patches));
+  TRY(network::mesh_patches(*network, *vertices, least_facing, settings.partial, patches));
+  TRY(surface->patches.way.resize(patches->way.size()));
+  for (size_t p = 0; p < patches->way.size(); ++p) {
+    surface->patches.way[p] = static_cast<uint8_t>(patches->way[p]);
+    const bool made = patches->status[p].ok();
+    counts->failed_patches += !made;
+    counts->minimal_area_patches += made && patches->way[p] == network::PatchWay::minimal_area;
+  }
+  TRY(surface->patches.status.copy(patches->status.span()));
+  if (counts->failed_patches == 0) return {};
+  TRY(network::drop_patches(surface->patches.status.span(), nodes, network, original));
+  network::CurveVertices fresh_vertices(context);
+  network::PatchMesh fresh_patches(context);
+  TRY(network::resample(fitted, nodes->span(), *network, counts->spacing, &fresh_vertices));
+  TRY(network::mesh_patches(*network, fresh_vertices, least_facing, false, &fresh_patches));
+  *vertices = static_cast<network::CurveVertices&&>(fresh_vertices);
+  *patches = static_cast<network::PatchMesh&&>(fresh_patches);
   return {};
 }
 
@@ -49,6 +102,16 @@ static Status take_vertices(const network::CurveVertices& vertices,
   return surface->patch.copy(patches.patch.span());
 }
 
+// The patches that were left out were not held back.
+static Status renumber_guarded(Span<const uint32_t> original, uint32_t patches,
+                               Array<uint8_t>* guarded) {
+  if (guarded->empty()) return {};
+  Array<uint8_t> all(guarded->context());
+  TRY(all.assign(patches, 0));
+  for (size_t p = 0; p < guarded->size(); ++p) all[original[p]] = (*guarded)[p];
+  return guarded->copy(all.span());
+}
+
 Status surface_curves(Context& context, const CurveSet& set, const Settings& settings,
                       Surface* surface) {
   Counts* counts = &surface->counts;
@@ -60,6 +123,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   mesh::Topology topology(context);
   Constraints constraints(context);
   Array<Vec3> given(context);
+  Array<uint32_t> original(context);
 
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
@@ -73,15 +137,13 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   counts->segments = static_cast<uint32_t>(network.segment.size());
   counts->patches = network.patches();
   TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
-  TRY(list_curve_edges(network, vertices, surface));
+  TRY(network::group_patches(vertices, &network));
+  counts->patches = network.patches();
 
   TRY(context.enter(Stage::patches));
-  const bool in_space =
-      settings.method == smooth::Method::iterated || settings.method == smooth::Method::fair;
-  TRY(network::mesh_patches(network, vertices, in_space ? k_least_facing : -1.0, &patches));
-  for (network::PatchWay way : patches.way) {
-    counts->minimal_area_patches += way == network::PatchWay::minimal_area;
-  }
+  TRY(make_patches(fitted, settings, &nodes, &network, &vertices, &patches, &original, surface));
+  TRY(list_curve_edges(network, vertices, surface));
+  counts->patches = network.patches();
   counts->free_vertices = patches.vertices - patches.curve_vertices;
   TRY(take_vertices(vertices, patches, surface));
   TRY(in_terms_of_nodes(
@@ -89,7 +151,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
 
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
-                       patches.start.span()};
+                       patches.start.span(), patches.placed.span()};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
@@ -97,6 +159,11 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
     TRY(smooth_creased(context, start, constraints, settings.method, &creased, surface));
   } else {
     TRY(smooth_surface(context, start, constraints, settings.method, surface));
+  }
+  if (!original.empty()) {  // the smoothing counted those that are left
+    for (uint32_t& p : surface->patch) p = original[p];
+    counts->patches += counts->failed_patches;
+    TRY(renumber_guarded(original.span(), counts->patches, &surface->patch_guarded));
   }
   return measure_constraints(set, given.span(), surface);
 }
@@ -134,6 +201,9 @@ static Status take_triangles(const TriangleSet& set, Surface* surface) {
   TRY(surface->position.copy(set.position));
   TRY(surface->triangle.copy(set.triangle));
   TRY(surface->patch.assign(set.triangle.size() / 3, 0));
+  TRY(surface->patches.way.push(0));
+  TRY(surface->patches.status.push(Status{}));
+  TRY(surface->patches.curve_start.assign(2, 0));
   TRY(surface->constraint_normal.assign(n, Vec3{}));
   TRY(surface->vertex_curve.assign(n, k_none));
   for (size_t v = 0; v < n; ++v) {

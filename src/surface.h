@@ -41,6 +41,7 @@ struct Settings {
   smooth::Method method = smooth::Method::fair;
   double spacing = 0.0;  // zero: a hundredth of the diagonal of the bounding box
   network::SmoothingOptions smoothing;
+  bool partial = false;  // patches that cannot be made are left out
 };
 
 struct Counts {
@@ -58,6 +59,18 @@ struct Counts {
   double greatest_distance = 0.0, mean_square_distance = 0.0;  // of the samples from their curves
   mesh::AngleStatistics normal_deviation;                      // along the curves
   mesh::AngleStatistics dihedral;                              // across the curves
+  uint32_t failed_patches = 0;
+};
+
+// What is known of each patch, those that could not be made included.
+struct PatchList {
+  Array<uint8_t> way;           // network::PatchWay
+  Array<Status> status;         // ok: it was made
+  Array<uint32_t> curve_start;  // patch p has the curves curve[curve_start[p]] .. ascending
+  Array<uint32_t> curve;
+
+  explicit PatchList(Context& context)
+      : way(context), status(context), curve_start(context), curve(context) {}
 };
 
 struct Surface {
@@ -73,6 +86,7 @@ struct Surface {
   Array<uint32_t> curve_edge;  // two vertices each
   Array<uint32_t> curve_edge_curve;
   Array<uint8_t> patch_guarded;  // of each patch; empty where the method has no guard
+  PatchList patches;
 
   explicit Surface(Context& context)
       : position(context),
@@ -85,7 +99,8 @@ struct Surface {
         patch(context),
         curve_edge(context),
         curve_edge_curve(context),
-        patch_guarded(context) {}
+        patch_guarded(context),
+        patches(context) {}
 };
 
 Status surface_curves(Context& context, const CurveSet& curves, const Settings& settings,

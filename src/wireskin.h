@@ -97,7 +97,7 @@ enum {
   WSK_ERROR_TOO_LARGE = 5,
   /* No curve, no vertex or no triangle was given. */
   WSK_ERROR_EMPTY = 6,
-  /* A curve of fewer than two samples, or a closed one of fewer than three. */
+  /* A curve without samples, or a closed one of fewer than three. */
   WSK_ERROR_TOO_FEW_SAMPLES = 7,
   /* A coordinate or a normal is NaN. */
   WSK_ERROR_NOT_A_NUMBER = 8,
@@ -116,7 +116,8 @@ enum {
   WSK_ERROR_INDEX_OUT_OF_RANGE = 14,
   /* Samples of the same node lie farther apart than 1e-9 of the diagonal of the bounding box. */
   WSK_ERROR_NODE_MISMATCH = 15,
-  /* A curve ends where no other curve passes, so the network does not bound patches there. */
+  /* A curve or a point bounds no patch and lies inside none; a boundary curve has the surface on
+     both sides, or nothing tells on which. */
   WSK_ERROR_OPEN_NETWORK = 16,
   /* Normals turn by more than 120 degrees between neighbouring samples, oppose each other at a
      node, or leave the order of the curves round a node undecided. */
@@ -128,7 +129,7 @@ enum {
   WSK_ERROR_PATCH_WITHOUT_PLANE = 19,
   /* The border of a patch crosses itself in space, or encloses nothing. */
   WSK_ERROR_PATCH_FOLDED = 20,
-  /* A patch bounded by several loops, or by a curve passed on both sides. */
+  /* A patch with a handle: its border passes a curve on both sides, round and round. */
   WSK_ERROR_PATCH_SEVERAL_LOOPS = 21,
   /* wsk_smooth_mesh: the triangles are no oriented manifold, or one of them has no area. */
   WSK_ERROR_BAD_MESH = 22,
@@ -252,15 +253,19 @@ typedef struct wsk_options {
   double (*now)(void* user);
   void* now_user;
 
-  /* Your thread pool: calls body(index, data) for every index below `count`, in any order and on any
-     threads, and returns when all have returned; it must not drop one. Null (the default): everything
-     runs on the calling thread. The library starts no threads, and the result has the same bits
-     either way. All other callbacks are only called from the thread that made the call, never from
-     a body, so they need no locks. What is divided so far is the factorisation of large systems,
-     which then needs some MiB more. */
+  /* Your thread pool: calls body(index, data) for every index below `count`, in any order and on
+     any threads, and returns when all have returned; it must not drop one. Null (the default):
+     everything runs on the calling thread. The library starts no threads, and the result has the
+     same bits either way. All other callbacks are only called from the thread that made the call,
+     never from a body, so they need no locks. What is divided so far is the factorisation of large
+     systems, which then needs some MiB more. */
   void (*parallel_for)(uint32_t count, void (*body)(uint32_t index, void* data), void* data,
                        void* user);
   void* parallel_for_user;
+  /* Non-zero: a patch that cannot be made is left out, and the surface ends round it; which ones
+     these are, and why, stands in wsk_surface_view. The call fails only where no patch can be made,
+     or where those that are left touch in a node without sharing a curve. */
+  int32_t partial;
 } wsk_options;
 
 /* Writes the defaults into *options. `size` is sizeof(wsk_options) as the caller knows it. Does
@@ -331,7 +336,8 @@ typedef struct wsk_report {
   size_t peak_bytes;                /* the most memory held at any time during the call */
   double stage_ms[WSK_STAGE_COUNT]; /* 0 without a clock */
   double total_ms;
-  wsk_solver solver; /* how the largest systems were solved; the memory cap decides */
+  wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
+  uint32_t failed_patches; /* left out because of wsk_options.partial */
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
@@ -343,7 +349,17 @@ WSK_API void wsk_report_init(wsk_report* report, size_t size);
 
 typedef struct wsk_surface wsk_surface;
 
-/* One curve: `sample_count` points in order, each with the surface normal there. */
+/* How a patch got its triangles before the smoothing: wsk_surface_view.patch_way. */
+enum {
+  /* In the plane across the mean normal of its border. */
+  WSK_PATCH_PLANE = 0,
+  /* In space, because no plane shows it well: a triangulation of little area, raised from the
+     border along its normals. */
+  WSK_PATCH_MINIMAL_AREA = 1
+};
+
+/* One curve: `sample_count` points in order, each with the surface normal there. An open curve of
+   one sample is a point that the surface passes through; it may lack its normal. */
 typedef struct wsk_curve {
   size_t sample_count;
   /* x y z of each sample; the next sample begins position_stride bytes later (0: 24, packed). */
@@ -386,11 +402,15 @@ typedef struct wsk_curve {
  * two curves end at a node.
  *
  * The cycles that bound patches follow from the order of the curves round each node, seen from the
- * tip of the node's normal. Each patch must be bounded by one loop. Where its border is seen
- * without folds from the mean of its normals (for ITERATED and FAIR: and not too steeply, the mean
- * cosine between them being at least 1/4) it is triangulated in that plane, else by a triangulation
- * of least area in space (G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron",
- * 1995).
+ * tip of the node's normal. Parts of a network that nothing connects are brought together: what
+ * lies inside a patch, seen in its plane, becomes part of it (a boundary loop is a hole in it,
+ * another closed curve bounds two patches, dangling curves and points hold the surface), and loops
+ * that face each other along the surface bound a band, if that takes less area than closing both.
+ * Where a patch's border is seen without folds from the mean of its normals (for ITERATED and FAIR:
+ * and not too steeply, the mean cosine between them being at least 1/4) it is triangulated in that
+ * plane, else by a triangulation of least area in space (G. Barequet, M. Sharir, "Filling Gaps in
+ * the Boundary of a Polyhedron", 1995), raised along the normals where these do not agree with any
+ * plane: one great circle gives a sphere.
  *
  * Where sharp curves meet, the node's normal is the mean of their sides; where some of these are
  * not known it is estimated from the directions of the curves, outward as the neighbours tell.
@@ -452,9 +472,14 @@ typedef struct wsk_surface_view {
   const uint32_t* triangle_patch;   /* 1 a triangle */
   const uint32_t* curve_edges;      /* 2 an edge: the curves as resampled, in their direction */
   const uint32_t*
-      curve_edge_curve;         /* 1 an edge: the caller's curve; both null for a caller's mesh */
-  const uint8_t* patch_guarded; /* 1 a patch: 1 where it was held back, see guarded_patches; null
-                                   for a caller's mesh and for methods that hold nothing back */
+      curve_edge_curve;           /* 1 an edge: the caller's curve; both null for a caller's mesh */
+  const uint8_t* patch_guarded;   /* 1 a patch: 1 where it was held back, see guarded_patches; null
+                                     for a caller's mesh and for methods that hold nothing back */
+  const uint8_t* patch_way;       /* 1 a patch: WSK_PATCH_... */
+  const wsk_status* patch_status; /* 1 a patch: WSK_OK, or why it was left out */
+  const char* const* patch_sentence; /* 1 a patch: "", or what was wrong in words; static text */
+  const uint32_t* patch_curve_start; /* patch_count + 1: patch p has the caller's curves */
+  const uint32_t* patch_curves;      /* patch_curves[patch_curve_start[p]] and so on, ascending */
 } wsk_surface_view;
 
 /* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is
@@ -497,7 +522,7 @@ typedef struct wsk_connect_options {
 } wsk_connect_options;
 
 /* As wsk_options_init. */
-void wsk_connect_options_init(wsk_connect_options* options, size_t size);
+WSK_API void wsk_connect_options_init(wsk_connect_options* options, size_t size);
 
 typedef struct wsk_network wsk_network;
 
@@ -587,9 +612,9 @@ typedef struct wsk_network_view {
  * `options` may be null (defaults); `report` may be null; of it only the status, its place, the
  * counts of curves and nodes, and the costs are filled. On success *network is the result, to be
  * given to wsk_network_free; on failure it is untouched. */
-wsk_status wsk_connect(const wsk_curve* curves, size_t curve_count,
-                       const wsk_connect_options* options, wsk_network** network,
-                       wsk_report* report);
+WSK_API wsk_status wsk_connect(const wsk_curve* curves, size_t curve_count,
+                               const wsk_connect_options* options, wsk_network** network,
+                               wsk_report* report);
 
 /* A curve as a shape sensor measures it: no positions, but directions along its arc length. */
 typedef struct wsk_sensor_curve {
@@ -616,19 +641,20 @@ typedef struct wsk_sensor_curve {
  * wsk_connect; of the options memory, cancel, progress and clock are used. T. Stanko, S. Hahmann,
  * G.-P. Bonneau, N. Saguin-Sprynski, "Shape from sensors: Curve networks on surfaces from 3D
  * orientations", 2017. */
-wsk_status wsk_integrate(const wsk_sensor_curve* curves, size_t curve_count,
-                         const wsk_options* options, wsk_network** network, wsk_report* report);
+WSK_API wsk_status wsk_integrate(const wsk_sensor_curve* curves, size_t curve_count,
+                                 const wsk_options* options, wsk_network** network,
+                                 wsk_report* report);
 
 /* As wsk_surface_get_view. */
-void wsk_network_get_view(const wsk_network* network, wsk_network_view* view, size_t size);
+WSK_API void wsk_network_get_view(const wsk_network* network, wsk_network_view* view, size_t size);
 
 /* Puts the caller's curves and samples into a report of wsk_build about this network's. A node that
    has no number of the caller's is named by a curve and a sample instead. Null pointers are
    allowed and do nothing. */
-void wsk_network_name_places(const wsk_network* network, wsk_report* report);
+WSK_API void wsk_network_name_places(const wsk_network* network, wsk_report* report);
 
 /* As wsk_surface_free. */
-void wsk_network_free(wsk_network* network);
+WSK_API void wsk_network_free(wsk_network* network);
 
 /* ---- Surfaces from curves alone ----------------------------------------------------------------
  *
@@ -685,7 +711,7 @@ typedef struct wsk_flow_options {
 } wsk_flow_options;
 
 /* As wsk_options_init. */
-void wsk_flow_options_init(wsk_flow_options* options, size_t size);
+WSK_API void wsk_flow_options_init(wsk_flow_options* options, size_t size);
 
 /* A void that the curves cage, as a person would see it the better, the greater its ratio is. Balls
    that grow round the samples close it at one radius and fill it at another. */
@@ -755,23 +781,23 @@ typedef struct wsk_flow_view {
  * curves count as having no normals. `options` and `flow_options` may be null (defaults). On
  * success *flow is to be given to wsk_flow_free; it keeps the allocator of the options, not the
  * callbacks. */
-wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk_options* options,
-                          const wsk_flow_options* flow_options, wsk_flow** flow,
-                          wsk_report* report);
+WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
+                                  const wsk_options* options, const wsk_flow_options* flow_options,
+                                  wsk_flow** flow, wsk_report* report);
 
 /* A surface like that of wsk_build. With normals it is smoothed by wsk_options.method where it is a
  * manifold and all its borders are curves; else, and without normals, it is made of the remeshed
  * patches, in which curvatures are zero if it is no manifold. No two triangles cross. The surface
  * lives on without the flow. One flow makes one surface at a time. */
-wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
-                            const wsk_flow_options* flow_options, wsk_surface** surface,
-                            wsk_report* report);
+WSK_API wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
+                                    const wsk_flow_options* flow_options, wsk_surface** surface,
+                                    wsk_report* report);
 
 /* As wsk_surface_get_view. */
-void wsk_flow_get_view(const wsk_flow* flow, wsk_flow_view* view, size_t size);
+WSK_API void wsk_flow_get_view(const wsk_flow* flow, wsk_flow_view* view, size_t size);
 
 /* As wsk_surface_free. */
-void wsk_flow_free(wsk_flow* flow);
+WSK_API void wsk_flow_free(wsk_flow* flow);
 
 /* The version of the library linked in, "major.minor.patch"; compare with WIRESKIN_VERSION_STRING.
  */

@@ -78,6 +78,8 @@ options:
                      surface where it is a manifold; without them it is left as remeshed
   --voids N          with flow: the number of voids to enclose (default: those that stand out)
   --open-walls       with flow: keep walls that end at other walls instead of at curves
+  --partial          leave out patches that cannot be made, instead of failing; the report lists
+                     them
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
                      written too, with the place of the fault, if the input cannot be read or no
                      surface can be built from it
@@ -217,6 +219,8 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.quiet = true;
   } else if (words.is_flag("--curves")) {
     arguments.curves = true;
+  } else if (words.is_flag("--partial")) {
+    arguments.partial = true;
   } else if (words.is("-o")) {
     arguments.outputs.push_back(words.value());
   } else if (words.is("--spacing")) {

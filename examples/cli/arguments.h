@@ -34,6 +34,7 @@ struct Arguments {
   TopologyChoice topology = TopologyChoice::automatic;
   int voids = WSK_VOIDS_AUTO;
   bool open_walls = false;
+  bool partial = false;
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

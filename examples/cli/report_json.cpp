@@ -208,6 +208,36 @@ std::string guarded_list(const wsk_surface_view* surface) {
   return "[" + list + "]";
 }
 
+const char* way_name(uint8_t way) {
+  return way == WSK_PATCH_PLANE ? "plane" : "minimal_area";
+}
+
+// The patches that were not simply meshed in their plane, those that were left out among them.
+std::string patches_json(const wsk_surface_view* surface) {
+  std::string list;
+  const bool known = surface != nullptr && surface->patch_status != nullptr;
+  const uint32_t count = known ? surface->patch_count : 0;
+  for (uint32_t p = 0; p < count; ++p) {
+    const bool made = surface->patch_status[p] == WSK_OK;
+    if (made && surface->patch_way[p] == WSK_PATCH_PLANE) continue;
+    JsonObject patch("    ");
+    patch.index("patch", p);
+    patch.text("status", wsk_status_name(surface->patch_status[p]));
+    if (made) {
+      patch.text("way", way_name(surface->patch_way[p]));
+    } else {
+      patch.text("sentence", surface->patch_sentence[p]);
+    }
+    std::string curves;
+    for (uint32_t i = surface->patch_curve_start[p]; i < surface->patch_curve_start[p + 1]; ++i) {
+      curves += (curves.empty() ? "" : ", ") + std::to_string(surface->patch_curves[i]);
+    }
+    patch.member("curves", "[" + curves + "]");
+    list += (list.empty() ? "\n    " : ",\n    ") + patch.close();
+  }
+  return list.empty() ? "[]" : "[" + list + "\n  ]";
+}
+
 // What the command itself knows stands beside the report.
 struct Outcome {
   const char* status;
@@ -246,6 +276,8 @@ std::string outcome_json(const ReportInput& input, const Outcome& outcome) {
   json.count("minimal_area_patches", report.minimal_area_patches);
   json.count("guarded_patches", report.guarded_patches);
   json.member("guarded_patch_list", guarded_list(input.surface));
+  json.count("failed_patches", report.failed_patches);
+  json.member("special_patches", patches_json(input.surface));
   json.number("noise_position", report.noise_position);
   json.number("noise_normal", report.noise_normal);
   json.number("constraint_distance_max", report.constraint_distance_max);

@@ -191,6 +191,11 @@ Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curv
     curves->sample[first + k] = sample;
     curves->node[first + k] = samples.node[sample];
   }
+  if (count == 1) {  // a point
+    curves->position_moment[first] = curves->normal_moment[first] = Vec3{};
+    curves->arc[first] = 0.0;
+    return {};
+  }
   TRY(fit(knots, positions, samples.closed, curves->position_moment.span().part(first, count),
           &scratch));
   TRY(fit(knots, normals, samples.closed, curves->normal_moment.span().part(first, count),

@@ -62,7 +62,7 @@ Status check_samples(const Samples& samples);
 Status thin(const Samples& samples, Array<uint32_t>* kept);
 
 // Fits one more curve through the samples `kept`, in that order; the others are not read. Smoothing
-// comes between thinning and this.
+// comes between thinning and this. An open curve of one sample is a point: one knot, no interval.
 Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curves);
 
 // Thins and fits at once.

@@ -1,15 +1,17 @@
-// A triangle mesh of little area within a closed loop in space: what a patch starts from where its
+// A triangle mesh of little area within closed loops in space: what a patch starts from where its
 // border has no plane to be projected to.
 //
-// In: the loop's positions (finite, scaled so that the extent is about one) and unit normals,
-// counter-clockwise seen from the normals' tips; the wished spacing. Out: inner points and
-// triangles over the loop's vertices (0 .. n - 1) and the inner ones (from n). Invariants: a disc
-// whose border is the loop in its direction; no vertex is added on it. *mesh is written on success
-// only. First a triangulation of the loop's vertices alone by dynamic programming, least in the sum
-// of area * (1 + 2 (1 - cos)) with the angle between a triangle and the mean of its normals; then
-// mesh/loop_refine.h. Of a long loop at most k_most_kept vertices take part in the first, so its
-// cost is bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps
-// in the Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003.
+// In: the loops' positions (finite, scaled so that the extent is about one) and unit normals, the
+// patch on their left seen from the normals' tips; the wished spacing. Out: inner points and
+// triangles over the loops' vertices (0 .. n - 1) and the inner ones (from n). Invariants: a disc,
+// or with several loops a sphere with that many holes, whose border the loops are in their
+// direction; no vertex is added on it. *mesh is written on success only. First a triangulation of
+// the loops' vertices alone by dynamic programming, least in the sum of area * (1 + k (1 - cos))
+// with the angle between a triangle and the mean of its normals, k 2 or for several loops 8;
+// several loops become one by bridges, the shortest along which their conormals lead. Then
+// mesh/loop_refine.h. At most k_most_kept vertices or so take part in the first, so its cost is
+// bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the
+// Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003.
 #pragma once
 
 #include "base/array.h"
@@ -24,7 +26,22 @@ struct LoopMesh {
   explicit LoopMesh(Context& context) : inner(context), triangle(context) {}
 };
 
-// Fails with patch_folded (no place) where neighbours coincide or the loop encloses no area.
+// Loop i has the vertices start[i] .. start[i + 1).
+struct Loops {
+  Span<const uint32_t> start;
+  Span<const Vec3> position, normal;  // normals are zero where not known
+
+  uint32_t count() const { return static_cast<uint32_t>(start.size() - 1); }
+  uint32_t next(uint32_t loop, uint32_t v) const {
+    return v + 1 == start[loop + 1] ? start[loop] : v + 1;
+  }
+  uint32_t previous(uint32_t loop, uint32_t v) const {
+    return (v == start[loop] ? start[loop + 1] : v) - 1;
+  }
+};
+
+// Fail with patch_folded (no place) where neighbours coincide or the loops enclose no area.
+Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh* mesh);
 Status mesh_loop(Context& context, Span<const Vec3> position, Span<const Vec3> normal,
                  double spacing, LoopMesh* mesh);
 

@@ -20,6 +20,7 @@ static constexpr int k_umbrella_sweeps = 2;
 namespace {
 
 struct LoopRefinement {
+  Span<const uint32_t> start;
   uint32_t rim;
   double spacing;
   size_t most_points = 0;
@@ -31,9 +32,10 @@ struct LoopRefinement {
   Span<const uint32_t> name;  // of the held points; empty: all are different
   bool may_relax = true;
 
-  LoopRefinement(Context& context, uint32_t rim_vertices, double wished, Array<Vec3>* points,
+  LoopRefinement(Context& context, Span<const uint32_t> loops, double wished, Array<Vec3>* points,
                  Array<uint32_t>* triangles)
-      : rim(rim_vertices),
+      : start(loops),
+        rim(loops[loops.size() - 1]),
         spacing(wished),
         position(points),
         triangle(triangles),
@@ -295,11 +297,10 @@ static Status relax_and_flip(LoopRefinement* r, int tangential, int free, Stars*
 }
 
 // Along the rim, twice round in each direction so that the start does not show.
-static void grade_rim(LoopRefinement* r) {
-  const uint32_t n = r->rim;
+static void grade_rim(LoopRefinement* r, uint32_t first, uint32_t n) {
   for (uint32_t i = 0; i < 4 * n; ++i) {
-    const uint32_t v = i < 2 * n ? i % n : n - 1 - i % n;
-    const uint32_t before = i < 2 * n ? (v + n - 1) % n : (v + 1) % n;
+    const uint32_t v = first + (i < 2 * n ? i % n : n - 1 - i % n);
+    const uint32_t before = first + (i < 2 * n ? (v - first + n - 1) % n : (v - first + 1) % n);
     const double reach = k_grading * length(r->at(v) - r->at(before));
     r->size[v] = smaller(r->size[v], r->size[before] + reach);
   }
@@ -321,14 +322,17 @@ static Status limit_points(LoopRefinement* r) {
 }
 
 static Status wish_sizes(LoopRefinement* r) {
-  TRY(r->size.assign(r->rim, 0.0));
-  for (uint32_t v = 0; v < r->rim; ++v) {
-    const uint32_t next = v + 1 < r->rim ? v + 1 : 0;
-    const double edge = length(r->at(next) - r->at(v));
-    r->size[v] += 0.5 * edge;
-    r->size[next] += 0.5 * edge;
+  TRY(r->size.assign(r->position->size(), r->spacing));
+  for (uint32_t v = 0; v < r->rim; ++v) r->size[v] = 0.0;
+  for (size_t l = 0; l + 1 < r->start.size(); ++l) {
+    for (uint32_t v = r->start[l]; v < r->start[l + 1]; ++v) {
+      const uint32_t next = v + 1 < r->start[l + 1] ? v + 1 : r->start[l];
+      const double edge = length(r->at(next) - r->at(v));
+      r->size[v] += 0.5 * edge;
+      r->size[next] += 0.5 * edge;
+    }
+    grade_rim(r, r->start[l], r->start[l + 1] - r->start[l]);
   }
-  grade_rim(r);
   return limit_points(r);
 }
 
@@ -368,10 +372,10 @@ static Status refine_all(LoopRefinement* r) {
   return relax_and_flip(r, k_last_relaxing_sweeps, 0, &stars);
 }
 
-Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
-                   Array<uint32_t>* triangle) {
-  LoopRefinement r(context, rim, spacing, position, triangle);
-  TRY(find_twins(rim, triangle->span(), &r.twins));
+Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
+                    Array<Vec3>* position, Array<uint32_t>* triangle) {
+  LoopRefinement r(context, start, spacing, position, triangle);
+  TRY(find_twins(static_cast<uint32_t>(position->size()), triangle->span(), &r.twins));
   TRY(wish_sizes(&r));
   return refine_all(&r);
 }
@@ -379,7 +383,8 @@ Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* 
 Status refine_patch(Context& context, double spacing, bool relax, Span<const uint32_t> name,
                     Array<Vec3>* position, Array<uint32_t>* triangle) {
   const uint32_t held = static_cast<uint32_t>(position->size());
-  LoopRefinement r(context, held, spacing, position, triangle);
+  const uint32_t all_held[2] = {0, held};
+  LoopRefinement r(context, {all_held, 2}, spacing, position, triangle);
   r.name = name;
   r.may_relax = relax;
   TRY(find_twins(held, triangle->span(), &r.twins));

@@ -1,13 +1,14 @@
-// Refines a triangulation of a closed loop's vertices to a wished spacing: midpoint splits from
+// Refines a triangulation of closed loops' vertices to a wished spacing: midpoint splits from
 // coarse to fine, each followed by edge flips, and relaxation of the inner points.
 //
-// In and out: points in space, the `rim` loop vertices first, and the triangles of a disc whose
-// border they are. Invariants: loop vertices and loop edges stay, inner points are appended, it
-// stays a manifold disc. The wished size is that of the loop's edges on the loop and changes to
-// `spacing` inwards, by at most k_grading of the distance. Every flip raises the least angle of its
-// two triangles, so flipping ends. O(points log(extent / spacing)). Sources: P. Liepa, "Filling
-// Holes in Meshes", 2003; C. Lawson, "Software for C1 Surface Interpolation", 1977; M. Botsch, L.
-// Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004.
+// In and out: points in space, the vertices of the loops first (loop i: start[i] .. start[i + 1)),
+// and the triangles of a surface whose border the loops are. Invariants: loop vertices and loop
+// edges stay, inner points are appended, it stays a manifold of the same kind. The wished size is
+// that of the loop's edges on the loop and changes to `spacing` inwards, by at most k_grading of
+// the distance. Every flip raises the least angle of its two triangles, so flipping ends. O(points
+// log(extent / spacing)). Sources: P. Liepa, "Filling Holes in Meshes", 2003; C. Lawson, "Software
+// for C1 Surface Interpolation", 1977; M. Botsch, L. Kobbelt, "A Remeshing Approach to
+// Multiresolution Modeling", 2004.
 #pragma once
 
 #include "mesh/mesh.h"
@@ -15,8 +16,8 @@
 namespace wireskin::mesh {
 
 // Fails with too_large where the spacing asks for more vertices than indices can count.
-Status refine_loop(Context& context, double spacing, uint32_t rim, Array<Vec3>* position,
-                   Array<uint32_t>* triangle);
+Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
+                    Array<Vec3>* position, Array<uint32_t>* triangle);
 
 // The same for any oriented manifold mesh: all points given are held, and so are the border's
 // edges, in whatever loops they come. Points of one name are one place where the mesh was cut open:

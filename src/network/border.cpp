@@ -1,63 +1,98 @@
 #include "network/border.h"
 
+#include "network/side_normals.h"
+
 namespace wireskin::network {
 
-static double clamp_to_unit(double t) {
-  return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+// Where a border begins must not depend on the order or the direction of the curves, or these would
+// change the triangulation: at its least point, nodes (whose bits are the caller's) before others.
+static bool begins_before(const CurveVertices& vertices, uint32_t a, uint32_t b) {
+  if ((a < vertices.nodes) != (b < vertices.nodes)) return a < vertices.nodes;
+  const Vec3 &p = vertices.position[a], &q = vertices.position[b];
+  if (p.x != q.x) return p.x < q.x;
+  return p.y != q.y ? p.y < q.y : p.z < q.z;
 }
 
-// The square of the distance between the segments a b and c d.
-static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 u = b - a, v = d - c, w = a - c;
-  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
-  const double determinant = uu * vv - uv * uv;
-  const double s = determinant > 0.0 ? clamp_to_unit((uv * vw - vv * uw) / determinant) : 0.0;
-  const double t = clamp_to_unit((uv * s + vw) / vv);  // nearest on c d to that point of a b
-  const double again = clamp_to_unit((uv * t - uw) / uu);
-  const Vec3 gap = (a + again * u) - (c + t * v);
-  return dot(gap, gap);
-}
-
-// Fails where two edges without a common end touch, to within a millionth of the border's length.
-static Status find_crossing(Context& context, Span<const Vec3> position, double perimeter) {
-  constexpr double k_touch = 1e-6;
-  const size_t n = position.size();
-  for (size_t i = 0; i < n; ++i) {
-    const Vec3 &a = position[i], &b = position[i + 1 < n ? i + 1 : 0];
-    const double own = length(b - a);
-    for (size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;
-      const Vec3 &c = position[j], &d = position[j + 1 < n ? j + 1 : 0];
-      if (length(c - a) > own + length(d - c) + k_touch * perimeter) continue;
-      if (segment_distance2(a, b, c, d) <= k_touch * perimeter * (k_touch * perimeter)) {
-        return fail(Code::patch_folded, "the border of the patch crosses itself");
+static Status append_loop(const Network& network, const CurveVertices& vertices, uint32_t loop,
+                          Border* border) {
+  const Span<const uint32_t> half = network.loop[loop];
+  Array<uint32_t> vertex(border->vertex.context());
+  Array<Vec3> normal(border->vertex.context());
+  for (size_t i = 0; i < half.size(); ++i) {
+    const uint32_t h = half[i], before = half[i == 0 ? half.size() - 1 : i - 1];
+    const uint32_t s = h / 2, edges = vertices.edges[s];
+    for (uint32_t k = 0; k < edges; ++k) {
+      TRY(vertex.push(segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)));
+      const Vec3 own = left_normal(network, vertices, h, k);
+      if (k > 0 || vertices.side_start.empty()) {
+        TRY(normal.push(own));
+      } else {
+        const Vec3 last = left_normal(network, vertices, before, vertices.edges[before / 2]);
+        TRY(normal.push(unit(last + own)));
       }
     }
-    if (i % 64 == 63) TRY(context.checkpoint());
+  }
+  const size_t n = vertex.size();
+  size_t first = 0;
+  for (size_t i = 1; i < n; ++i) {
+    if (begins_before(vertices, vertex[i], vertex[first])) first = i;
+  }
+  for (size_t i = 0; i < n; ++i) {
+    const size_t k = (first + i) % n;
+    TRY(border->vertex.push(vertex[k]));
+    TRY(border->position.push(vertices.position[vertex[k]]));
+    TRY(border->normal.push(normal[k]));
+  }
+  return border->start.push(static_cast<uint32_t>(border->vertex.size()));
+}
+
+Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t patch,
+                       Border* border) {
+  border->start.clear();
+  border->vertex.clear();
+  border->position.clear();
+  border->normal.clear();
+  TRY(border->start.push(0));
+  for (uint32_t l = network.patch_start[patch]; l < network.patch_start[patch + 1]; ++l) {
+    TRY(append_loop(network, vertices, l, border));
   }
   return {};
 }
 
-Status check_border(Context& context, Span<const Vec3> position, Span<const Vec3> normal) {
-  const size_t n = position.size();
-  Vec3 area, normals;
-  double perimeter = 0.0;
-  for (size_t i = 0; i < n; ++i) {
-    const Vec3& next = position[i + 1 < n ? i + 1 : 0];
-    area += 0.5 * cross(position[i] - position[0], next - position[0]);
-    normals += (1.0 / static_cast<double>(n)) * normal[i];
-    perimeter += length(next - position[i]);
+uint32_t next_on_border(const Border& border, uint32_t loop, uint32_t i) {
+  return i + 1 == border.start[loop + 1] ? border.start[loop] : i + 1;
+}
+
+Vec3 vector_area(const Border& border) {
+  Vec3 area;
+  const Vec3 base = border.position[0];
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const Vec3& next = border.position[next_on_border(border, l, i)];
+      area += cross(border.position[i] - base, next - base);
+    }
   }
-  // A disc of this perimeter has the area perimeter^2 / (4 pi); a fifth of that is no accident.
-  const double clear_area = perimeter * perimeter / 60.0;
-  const bool clear_normals = length(normals) > 0.5;
-  if (clear_normals && dot(area, unit(normals)) < -clear_area) {
-    return fail(
-        Code::patch_without_plane,
-        "the border runs clockwise round its normals: where a surface ends, its curves must be "
-        "tagged as boundary");
+  return area;
+}
+
+Vec3 mean_normal(const Border& border) {
+  Vec3 sum;
+  double known = 0.0;
+  for (const Vec3& n : border.normal) {
+    sum += n;
+    known += n != Vec3{} ? 1.0 : 0.0;
   }
-  return find_crossing(context, position, perimeter);
+  return known > 0.0 ? (1.0 / known) * sum : Vec3{};
+}
+
+double border_length(const Border& border) {
+  double sum = 0.0;
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      sum += length(border.position[next_on_border(border, l, i)] - border.position[i]);
+    }
+  }
+  return sum;
 }
 
 }  // namespace wireskin::network

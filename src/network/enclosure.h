@@ -1,29 +1,38 @@
-// Curves that lie inside a patch without being connected to its border: they ought to be a second
-// loop of the border (a hole) or to hold the patch's inside, and a patch of one loop must not
-// ignore them.
+// Which patch encloses each connected component of the curves: a curve inside a patch without being
+// connected to its border is a second loop of the border, or holds the patch's inside.
 //
-// In: the curve vertices and segments (for the components), then one patch after the other with its
-// border in its plane. A component is inside where all its vertices project into the border's
-// polygon, no farther from the plane than the border itself and a twentieth of its width. Cost: one
-// point-in-polygon test for each pair of patch and component, all vertices where it hits.
+// In: network and curve vertices, every cycle a patch of its own. A component is enclosed where all
+// its vertices project into the patch's border, no farther from its plane than the border itself
+// and a share of its width (a twentieth; half of it for pieces that bound nothing themselves and
+// face the way the patch does). Of several such patches the one counts that is least in the sum of
+// its size and four times how far the component lies beyond the border's heights. Cost: components
+// are sorted by place, so a patch looks only at those in its own range of x; all vertices where a
+// piece's first vertex is inside.
 #pragma once
 
 #include "network/plane.h"
 
 namespace wireskin::network {
 
-class Enclosure {
- public:
-  explicit Enclosure(Context& context) : component_(context), start_(context), member_(context) {}
-  Status find_components(const Network& network, const CurveVertices& vertices);
+struct Components {
+  Array<uint32_t> of_vertex;  // of each curve vertex; a node without segments is one of its own
+  Lists members;              // the vertices of each component
+  Array<uint8_t> bounds;      // of each component: has a cycle that bounds a patch
 
-  // Fails with patch_several_loops, naming the curve.
-  Status check(const CurveVertices& vertices, Span<const uint32_t> border, Span<const Vec2> polygon,
-               const Plane& plane) const;
-
- private:
-  Array<uint32_t> component_;       // of each curve vertex
-  Array<uint32_t> start_, member_;  // the vertices of each component
+  explicit Components(Context& context) : of_vertex(context), members(context), bounds(context) {}
 };
+
+Status find_components(const Network& network, const CurveVertices& vertices,
+                       Components* components);
+
+struct Enclosing {
+  uint32_t patch = k_none;
+  double score = 0.0;
+  Vec3 normal;  // of the patch's plane
+};
+
+// Of each component.
+Status find_enclosing(const Network& network, const CurveVertices& vertices,
+                      const Components& components, Array<Enclosing>* enclosing);
 
 }  // namespace wireskin::network

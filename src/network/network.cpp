@@ -218,67 +218,192 @@ static double signed_area(const Graph& graph, Span<const uint32_t> next, uint32_
   return dot(area, dot(normals, normals) > 0.0 ? normals : nodes);
 }
 
+static bool two_sided(const Cycles& cycles, uint32_t h) {
+  return cycles.cycle[h] == cycles.cycle[opposite(h)];
+}
+
+// The cycle on the other side of h's cycle all the way round where that is the same one from both
+// sides, else k_none.
+static uint32_t rival_of(const Cycles& cycles, uint32_t h) {
+  const uint32_t c = cycles.cycle[h], rival = cycles.cycle[opposite(h)];
+  if (rival == c) return k_none;
+  uint32_t g = h, count = 0, back = opposite(h);
+  do {
+    if (cycles.cycle[opposite(g)] != rival) return k_none;
+    g = cycles.next[g];
+    ++count;
+  } while (g != h);
+  do {
+    back = cycles.next[back];
+    --count;
+  } while (back != opposite(h) && count != 0);
+  return back == opposite(h) && count == 0 ? rival : k_none;
+}
+
+namespace {
+
+// What is known of each cycle.
+struct Judged {
+  Array<uint8_t> outside;  // no surface there
+  Array<uint8_t> ring;     // as in Network
+
+  explicit Judged(Context& context) : outside(context), ring(context) {}
+};
+
+}  // namespace
+
+// Of a cycle all of whose segments are boundary and none of whose neighbours is a patch for sure:
+// counter-clockwise ones have the surface.
+static void judge_by_area(const Graph& graph, const Cycles& cycles, uint32_t h, Judged* judged) {
+  const uint32_t c = cycles.cycle[h], rival = rival_of(cycles, h);
+  const double area = signed_area(graph, cycles.next.span(), h);
+  if (rival == k_none) {
+    judged->outside[c] = area < 0.0;
+    return;
+  }
+  judged->ring[c] = judged->ring[rival] = 1;
+  judged->outside[area < 0.0 ? c : rival] = 1;
+}
+
 // Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for
 // sure, or else when they run clockwise.
-static Status find_outside(const Graph& graph, const Cycles& cycles, Array<uint8_t>* outside) {
-  Context& context = outside->context();
+static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* judged) {
+  Context& context = judged->outside.context();
   Array<uint8_t> inner(context);  // has a segment that is no boundary
   TRY(inner.assign(cycles.count, 0));
-  TRY(outside->assign(cycles.count, 0));
+  TRY(judged->outside.assign(cycles.count, 0));
+  TRY(judged->ring.assign(cycles.count, 0));
   const uint32_t halves = static_cast<uint32_t>(cycles.next.size());
   for (uint32_t h = 0; h < halves; ++h) {
     if (!graph.segment_of(h).boundary) inner[cycles.cycle[h]] = 1;
   }
   for (uint32_t h = 0; h < halves; ++h) {
     const uint32_t c = cycles.cycle[h];
-    if (!inner[c] && inner[cycles.cycle[opposite(h)]]) (*outside)[c] = 1;
+    if (!inner[c] && inner[cycles.cycle[opposite(h)]]) judged->outside[c] = 1;
   }
   Array<uint8_t> measured(context);
   TRY(measured.assign(cycles.count, 0));
   for (uint32_t h = 0; h < halves; ++h) {
     const uint32_t c = cycles.cycle[h];
-    if (inner[c] || (*outside)[c] || measured[c]) continue;
+    if (inner[c] || judged->outside[c] || judged->ring[c] || measured[c]) continue;
+    if (two_sided(cycles, h)) continue;
     measured[c] = 1;
-    (*outside)[c] = signed_area(graph, cycles.next.span(), h) < 0.0;
+    judge_by_area(graph, cycles, h, judged);
   }
   for (uint32_t h = 0; h < halves; h += 2) {
     const Segment& segment = graph.segment_of(h);
-    const int sides = !(*outside)[cycles.cycle[h]] + !(*outside)[cycles.cycle[opposite(h)]];
-    if (!segment.boundary || sides == 1) continue;
-    const bool undecided = !inner[cycles.cycle[h]] && !inner[cycles.cycle[opposite(h)]];
-    return fail_at_sample(
-        Code::open_network,
-        undecided ? "the normals do not tell on which side of this boundary curve the surface lies"
-                  : "this boundary curve has the surface on both sides: every curve of a border "
-                    "must be tagged as boundary, and no other",
-        segment.curve, graph.curve_of(h).sample[segment.first_knot]);
+    const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
+    const int sides = !judged->outside[a] + !judged->outside[b];
+    const char* sentence = nullptr;
+    if (segment.boundary && sides != 1) {
+      sentence = !inner[a] && !inner[b] && a != b
+                     ? "the normals do not tell on which side of this boundary curve the surface "
+                       "lies"
+                     : "this boundary curve has the surface on both sides: every curve of a border "
+                       "must be tagged as boundary, and no other";
+    }
+    if (sentence == nullptr) continue;
+    return fail_at_sample(Code::open_network, sentence, segment.curve,
+                          graph.curve_of(h).sample[segment.first_knot]);
   }
   return {};
 }
 
-static Status collect_patches(const Graph& graph, const Cycles& cycles, Span<const uint8_t> outside,
+// Lists the loop of a cycle that begins with h, which has another cycle on its other side: where
+// the way goes on along a segment inside the patch, the next one clockwise is taken instead.
+static void list_loop(const Cycles& cycles, uint32_t h, Span<uint8_t> done, Lists* loops) {
+  uint32_t g = h;
+  do {
+    done[g] = 1;
+    loops->item.push_reserved(g);
+    g = cycles.next[g];
+    while (two_sided(cycles, g)) g = cycles.next[opposite(g)];
+  } while (g != h);
+}
+
+static uint32_t root_of_node(Span<uint32_t> parent, uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+// Loops and the segments between them must form a tree when every loop is shrunk to a point; else
+// the patch has a handle. `parent`: of each node, itself on entry and on return.
+static Status check_handles(const Graph& graph, Span<const uint32_t> loops,
+                            Span<const uint32_t> inner, uint32_t patch, Span<uint32_t> parent) {
+  Status status;
+  for (uint32_t h : loops) {
+    const Segment& s = graph.segment_of(h);
+    if (s.from != k_none) parent[root_of_node(parent, s.from)] = root_of_node(parent, s.to);
+  }
+  for (uint32_t i : inner) {
+    const uint32_t a = root_of_node(parent, graph.segments[i].from);
+    const uint32_t b = root_of_node(parent, graph.segments[i].to);
+    parent[a] = b;
+    if (a != b || !status.ok()) continue;
+    Place place;
+    place.patch = patch;
+    place.curve = graph.segments[i].curve;
+    status = fail(Code::patch_several_loops,
+                  "the border of the patch passes a curve on both sides, round a handle", place);
+  }
+  const auto reset = [&](const Segment& s) {
+    if (s.from == k_none) return;
+    parent[s.from] = s.from;
+    parent[s.to] = s.to;
+  };
+  for (uint32_t h : loops) reset(graph.segment_of(h));
+  for (uint32_t i : inner) reset(graph.segments[i]);
+  return status;
+}
+
+// The loops and the inner segments of the cycle through h become a patch, or a loose piece where it
+// has no loops.
+static Status collect_patch(const Graph& graph, const Cycles& cycles, uint32_t h, bool ring,
+                            Span<uint8_t> done, Span<uint32_t> parent, Network* network) {
+  const uint32_t first_loop = network->loop.count();
+  Array<uint32_t> inner(network->segment.context());
+  uint32_t g = h;
+  do {
+    if (two_sided(cycles, g)) {
+      if (!done[opposite(g)]) TRY(inner.push(g / 2));
+      done[g] = 1;
+    } else if (!done[g]) {
+      list_loop(cycles, g, done, &network->loop);
+      TRY(network->loop.close());
+    }
+    g = cycles.next[g];
+  } while (g != h);
+  const uint32_t loops = network->loop.count();
+  Lists* list = loops == first_loop ? &network->loose : &network->inner;
+  Span<const uint32_t> halves;
+  if (loops > first_loop) {
+    TRY(network->patch_start.push(loops));
+    TRY(network->ring.push(ring));
+    TRY(network->point.close());
+    halves = network->cycle(network->patches() - 1);
+  }
+  for (uint32_t s : inner) TRY(list->item.push(s));
+  TRY(list->close());
+  if (inner.empty()) return {};
+  return check_handles(graph, halves, inner.span(),
+                       loops > first_loop ? network->patches() - 1 : k_none, parent);
+}
+
+static Status collect_patches(const Graph& graph, const Cycles& cycles, const Judged& judged,
                               Network* network) {
-  Array<uint8_t> done(network->patch_start.context());
-  TRY(done.assign(cycles.count, 0));
+  Context& context = network->patch_start.context();
+  Array<uint8_t> done(context);
+  Array<uint32_t> parent(context);
+  TRY(done.assign(cycles.next.size(), 0));
+  TRY(parent.resize(graph.nodes.size()));
+  for (uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
   TRY(network->patch_start.push(0));
-  TRY(network->half_segment.reserve(cycles.next.size()));
+  TRY(network->loop.item.reserve(cycles.next.size()));
   for (uint32_t h = 0; h < cycles.next.size(); ++h) {
     const uint32_t c = cycles.cycle[h];
-    if (outside[c] || done[c]) continue;
-    done[c] = 1;
-    uint32_t g = h;
-    do {
-      if (cycles.cycle[opposite(g)] == c) {
-        Place place;
-        place.patch = network->patches();
-        place.curve = graph.segment_of(g).curve;
-        return fail(Code::patch_several_loops,
-                    "the border of the patch passes a curve on both sides", place);
-      }
-      network->half_segment.push_reserved(g);
-      g = cycles.next[g];
-    } while (g != h);
-    TRY(network->patch_start.push(static_cast<uint32_t>(network->half_segment.size())));
+    if (judged.outside[c] || done[h]) continue;
+    TRY(collect_patch(graph, cycles, h, judged.ring[c] != 0, done.span(), parent.span(), network));
+    if (h % 4096 == 4095) TRY(context.checkpoint());
   }
   return {};
 }
@@ -291,13 +416,13 @@ Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
   }
   const Graph graph = {curves, nodes, network->segment.span()};
   Cycles cycles(context);
-  Array<uint8_t> outside(context);
+  Judged judged(context);
   TRY(cycles.next.resize(2 * network->segment.size()));
   TRY(cycles.cycle.assign(2 * network->segment.size(), k_none));
   TRY(link_half_segments(graph, cycles.next.span()));
   number_cycles(&cycles);
-  TRY(find_outside(graph, cycles, &outside));
-  return collect_patches(graph, cycles, outside.span(), network);
+  TRY(find_outside(graph, cycles, &judged));
+  return collect_patches(graph, cycles, judged, network);
 }
 
 }  // namespace wireskin::network

@@ -59,6 +59,7 @@ static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, 
   if (!samples.sharp.empty()) merge_sides(samples, members, node);
   if (node->crease) return {};
   for (uint32_t sample : members) {
+    if (samples.normal[sample] == Vec3{}) continue;  // a point without one
     if (!(dot(samples.normal[sample], node->normal) > 0.0)) {
       return fail_at(Code::inconsistent_normals,
                      "the normal opposes those of the other curves at this node", samples, sample);
@@ -89,6 +90,27 @@ Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* n
       (*node_of_sample)[order[k]] = static_cast<uint32_t>(nodes->size());
     }
     TRY(nodes->push(node));
+  }
+  return {};
+}
+
+Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
+                      Span<uint32_t> node_of_sample) {
+  for (uint32_t c = 0; c < closed.size(); ++c) {
+    const uint32_t first = samples.start[c], last = samples.start[c + 1] - 1;
+    if (closed[c] && first != last) continue;
+    for (int end = 0; end < (first == last ? 1 : 2); ++end) {
+      const uint32_t sample = end == 0 ? first : last;
+      if (node_of_sample[sample] != k_none) continue;
+      node_of_sample[sample] = static_cast<uint32_t>(nodes->size());
+      Node node = {samples.position[sample], samples.normal[sample], samples.number[sample]};
+      if (!samples.sharp.empty() && samples.sharp[c]) {
+        Array<uint32_t> self(nodes->context());
+        TRY(self.push(sample));
+        merge_sides(samples, self.span(), &node);
+      }
+      TRY(nodes->push(node));
+    }
   }
   return {};
 }

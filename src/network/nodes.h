@@ -4,8 +4,8 @@
 // samples or more are nodes, whichever curves those belong to. Out: the nodes in ascending order of
 // their numbers and the node of each sample. A node has the position of its first sample (the
 // others must agree with it) and the mean of its samples' normals. Where sharp curves pass, normals
-// may differ: there the mean is that of the sharp curves' sides, or of all normals where some side is
-// not known. O(s log s).
+// may differ: there the mean is that of the sharp curves' sides, or of all normals where some side
+// is not known. O(s log s).
 #pragma once
 
 #include "base/array.h"
@@ -35,5 +35,10 @@ struct SampleNumbers {
 // inconsistent_normals, naming curve, sample and number.
 Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
                   Array<uint32_t>* node_of_sample);
+
+// Ends of open curves that nothing else meets, and points (curves of one sample), become nodes too,
+// without a number and behind all others. `closed`: of each curve.
+Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
+                      Span<uint32_t> node_of_sample);
 
 }  // namespace wireskin::network

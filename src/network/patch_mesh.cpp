@@ -1,13 +1,17 @@
 #include "network/patch_mesh.h"
 
 #include "base/sort.h"
-#include "mesh/loop_mesh.h"
-#include "network/border.h"
-#include "network/enclosure.h"
-#include "network/side_normals.h"
+#include "mesh/dome.h"
+#include "mesh/loop_refine.h"
+#include "network/border_check.h"
+#include "network/plane.h"
 #include "planar/polygon_mesh.h"
 
 namespace wireskin::network {
+
+// Where the normals agree less with the axis of the border, what spreads linearly from it is flat:
+// the patch starts raised along them.
+static constexpr double k_least_closing = 0.3;
 
 namespace {
 
@@ -25,28 +29,42 @@ struct Builder {
   Array<Vec3> corner;
   Array<Chord> chord;
   Array<uint32_t> patch_start;  // first triangle of each patch, before chords are split
+  Array<uint8_t> raised;        // of each patch
 
   explicit Builder(Context& context, PatchMesh* result)
-      : mesh(result), corner(context), chord(context), patch_start(context) {}
+      : mesh(result), corner(context), chord(context), patch_start(context), raised(context) {}
 };
 
-// Memory for one patch, reused: the border, the mesh either way, and what both come to: triangles
-// over border vertices 0 .. n - 1 and inner ones from n, the corners' places for the metric, and
-// where the inner vertices may start in space.
+// Memory for one patch, reused: the border, the vertices of the patch that are on curves (those of
+// the loops, then inner ones), the mesh either way, and what both come to: triangles over these
+// vertices and free ones behind them, the corners' places for the metric, and where the free
+// vertices may start in space.
 struct PatchScratch {
-  Array<uint32_t> border;
-  Array<Vec2> polygon;
-  Array<Vec3> loop, loop_normal;  // along the border; normals are zero where not known
+  Border border;
+  Array<uint32_t> local;         // of each curve vertex, k_none between patches
+  Array<uint32_t> vertex;        // of each local one the curve vertex
+  Array<uint32_t> loop;          // local, in the order of the border
+  Array<uint32_t> inner_edge;    // two local ones each, the lesser first
+  Array<Chord> curve_edge;       // local, a < b, sorted: loops' and inner edges
+  uint32_t isolated = 0;         // so many of the last local vertices are points
+  Array<Vec3> position, normal;  // of the local vertices
+  Array<Vec2> flat;
   planar::PolygonMesh planar;
   mesh::LoopMesh spatial;
   Array<Vec3> place;
   Array<Vec3> inner;
+  bool raised = false;
 
   explicit PatchScratch(Context& context)
       : border(context),
-        polygon(context),
+        local(context),
+        vertex(context),
         loop(context),
-        loop_normal(context),
+        inner_edge(context),
+        curve_edge(context),
+        position(context),
+        normal(context),
+        flat(context),
         planar(context),
         spatial(context),
         place(context),
@@ -55,12 +73,14 @@ struct PatchScratch {
 
 }  // namespace
 
+static bool may_be_left_out(const Status& status) {
+  return status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
+         status.code == Code::patch_several_loops;
+}
+
 // Adds the place to what went wrong with a patch: its number and a curve of its border.
 static Status at_patch(Status status, const Network& network, uint32_t patch) {
-  const bool geometric = status.code == Code::patch_without_plane ||
-                         status.code == Code::patch_folded ||
-                         status.code == Code::patch_several_loops;
-  if (!geometric) return status;
+  if (!may_be_left_out(status)) return status;
   status.place.patch = patch;
   if (status.place.curve == k_none) {
     status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
@@ -68,34 +88,106 @@ static Status at_patch(Status status, const Network& network, uint32_t patch) {
   return status;
 }
 
-static double mean_edge(const CurveVertices& vertices, Span<const uint32_t> border) {
-  double sum = 0.0;
-  for (size_t i = 0; i < border.size(); ++i) {
-    const size_t next = i + 1 == border.size() ? 0 : i + 1;
-    sum += length(vertices.position[border[next]] - vertices.position[border[i]]);
+static bool before(const Chord& x, const Chord& y) {
+  if (x.a != y.a) return x.a < y.a;
+  return x.b != y.b ? x.b < y.b : x.patch < y.patch;
+}
+
+static Status add_vertex(uint32_t v, const CurveVertices& vertices, const Vec3& normal,
+                         PatchScratch* scratch, uint32_t* local) {
+  if (scratch->local[v] == k_none) {
+    scratch->local[v] = static_cast<uint32_t>(scratch->vertex.size());
+    TRY(scratch->vertex.push(v));
+    TRY(scratch->position.push(vertices.position[v]));
+    TRY(scratch->normal.push(normal));
   }
-  return sum / static_cast<double>(border.size());
+  *local = scratch->local[v];
+  return {};
+}
+
+static Status add_edge(uint32_t a, uint32_t b, PatchScratch* scratch) {
+  return scratch->curve_edge.push(a < b ? Chord{a, b, k_none} : Chord{b, a, k_none});
+}
+
+// Numbers the curve vertices of a patch and lists its edges.
+static Status take_domain(const Network& network, const CurveVertices& vertices, uint32_t patch,
+                          PatchScratch* scratch) {
+  TRY(border_of_patch(network, vertices, patch, &scratch->border));
+  const Border& border = scratch->border;
+  for (uint32_t v : scratch->vertex) scratch->local[v] = k_none;
+  scratch->vertex.clear();
+  scratch->position.clear();
+  scratch->normal.clear();
+  scratch->inner_edge.clear();
+  scratch->curve_edge.clear();
+  TRY(scratch->loop.resize(border.size()));
+  for (uint32_t i = 0; i < border.size(); ++i) {
+    TRY(add_vertex(border.vertex[i], vertices, border.normal[i], scratch, &scratch->loop[i]));
+  }
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      TRY(add_edge(scratch->loop[i], scratch->loop[next_on_border(border, l, i)], scratch));
+    }
+  }
+  for (uint32_t s : network.inner[patch]) {
+    uint32_t last = k_none, local = k_none;
+    for (uint32_t k = 0; k <= vertices.edges[s]; ++k, last = local) {
+      const uint32_t v = segment_vertex(network, vertices, s, k);
+      TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
+      if (k == 0) continue;
+      TRY(scratch->inner_edge.push(last));
+      TRY(scratch->inner_edge.push(local));
+      TRY(add_edge(last, local, scratch));
+    }
+  }
+  scratch->isolated = static_cast<uint32_t>(network.point[patch].size());
+  for (uint32_t v : network.point[patch]) {
+    uint32_t local = k_none;
+    TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
+  }
+  sort(scratch->curve_edge.span(), before);
+  return {};
+}
+
+static bool find_edge(Span<const Chord> sorted, uint32_t a, uint32_t b) {
+  const Chord edge = {a, b, k_none};
+  size_t low = 0, high = sorted.size();
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (before(sorted[middle], edge)) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low < sorted.size() && sorted[low].a == a && sorted[low].b == b;
+}
+
+static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
+  return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
 }
 
 static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
                            uint32_t patch, Builder* builder) {
   PatchMesh* mesh = builder->mesh;
-  const uint32_t n = static_cast<uint32_t>(scratch.border.size());
+  const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
   const auto global = [&](uint32_t v) {
-    return v < n ? scratch.border[v] : mesh->vertices + (v - n);
+    return v < n ? scratch.vertex[v] : mesh->vertices + (v - n);
   };
   for (size_t h = 0; h < triangle.size(); ++h) {
     const uint32_t a = triangle[h], b = triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
     TRY(mesh->triangle.push(global(a)));
     TRY(builder->corner.push(scratch.place[a]));
     if (h % 3 == 0) TRY(mesh->patch.push(patch));
-    const bool on_border = (a + 1) % n == b || (b + 1) % n == a;
     // Each edge inside is met once in each direction; the ascending one is noted.
-    if (a < n && b < n && !on_border && global(a) < global(b)) {
+    if (a < n && b < n && global(a) < global(b) && !is_curve_edge(scratch, a, b)) {
       TRY(builder->chord.push({global(a), global(b), patch}));
     }
   }
-  for (const Vec3& p : scratch.inner) TRY(mesh->start.push(p));
+  for (const Vec3& p : scratch.inner) {
+    TRY(mesh->start.push(p));
+    TRY(mesh->placed.push(scratch.raised));
+  }
   const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
   if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
     return fail(Code::too_large, "the spacing is too small for the network");
@@ -104,26 +196,64 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   return {};
 }
 
-static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& enclosure,
-                            double spacing, double least_facing, PatchScratch* scratch) {
-  Plane plane;
-  TRY(fit_plane(vertices, scratch->border.span(), scratch->loop_normal.span(), &plane));
-  const size_t n = scratch->border.size();
-  TRY(scratch->polygon.resize(n));
+// Whether the triangles lie on the left of every edge of the loops: holes run clockwise, the outer
+// loop does not.
+static bool on_the_left(const PatchScratch& scratch, Array<Chord>* directed) {
+  sort(directed->span(), before);
+  for (size_t h = 0; h < scratch.planar.triangles.size(); ++h) {
+    const uint32_t a = scratch.planar.triangles[h];
+    const uint32_t b = scratch.planar.triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    if (find_edge(directed->span(), b, a)) return false;
+  }
+  return true;
+}
+
+static Status mesh_flat(double spacing, PatchScratch* scratch) {
+  Context& context = scratch->vertex.context();
+  const Border& border = scratch->border;
+  round_to_grid(scratch->flat.span(), &spacing);
+  if (border.loops() == 1 && border.size() == scratch->vertex.size()) {
+    return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
+  }
+  Array<uint32_t> edges(context);
+  Array<Chord> directed(context);
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const uint32_t a = scratch->loop[i], b = scratch->loop[next_on_border(border, l, i)];
+      TRY(edges.push(a));
+      TRY(edges.push(b));
+      TRY(directed.push({a, b, k_none}));
+    }
+  }
+  const planar::Region region = {scratch->flat.span(), edges.span(), scratch->inner_edge.span(),
+                                 false};
+  Status status = planar::mesh_region(context, region, spacing, &scratch->planar);
+  const bool outside = status.code == Code::bad_argument || status.code == Code::open_network;
+  if (outside) status = fail(Code::patch_folded, "a curve inside the patch leaves it");
+  status.place = {};  // its vertices are ours
+  TRY(status);
+  if (!on_the_left(*scratch, &directed)) {
+    return fail(Code::patch_without_plane, "a loop of the patch runs the wrong way round");
+  }
+  return {};
+}
+
+// `least_facing` as in mesh_patches.
+static Status mesh_in_plane(const Plane& plane, double spacing, double least_facing,
+                            PatchScratch* scratch) {
+  const size_t n = scratch->vertex.size();
+  TRY(scratch->flat.resize(n));
   double facing = 0.0;
   size_t known = 0;
-  for (size_t i = 0; i < n; ++i) {
-    scratch->polygon[i] = plane.project(scratch->loop[i]);
-    facing += dot(scratch->loop_normal[i], plane.normal);
-    known += scratch->loop_normal[i] != Vec3{};
+  for (size_t i = 0; i < n; ++i) scratch->flat[i] = plane.project(scratch->position[i]);
+  for (const Vec3& normal : scratch->border.normal) {
+    facing += dot(normal, plane.normal);
+    known += normal != Vec3{};
   }
-  TRY(enclosure.check(vertices, scratch->border.span(), scratch->polygon.span(), plane));
   if (known > 0 && facing < least_facing * static_cast<double>(known)) {
     return fail(Code::patch_without_plane, "the plane of the patch sees too much of it edge-on");
   }
-  round_to_grid(scratch->polygon.span(), &spacing);
-  TRY(planar::mesh_polygon(scratch->border.context(), scratch->polygon.span(), spacing,
-                           &scratch->planar));
+  TRY(mesh_flat(spacing, scratch));
   const Array<Vec2>& points = scratch->planar.points;
   TRY(scratch->place.resize(points.size()));
   TRY(scratch->inner.resize(points.size() - n));
@@ -134,33 +264,76 @@ static Status mesh_in_plane(const CurveVertices& vertices, const Enclosure& encl
   return {};
 }
 
-static Status mesh_in_space(double spacing, PatchScratch* scratch) {
-  TRY(mesh::mesh_loop(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span(),
-                      spacing, &scratch->spatial));
-  TRY(scratch->inner.copy(scratch->spatial.inner.span()));
-  TRY(scratch->place.copy(scratch->loop.span()));
-  for (const Vec3& p : scratch->inner) TRY(scratch->place.push(p));
+// Whether some triangle is so thin that the systems to come would be singular.
+static bool has_needles(Span<const Vec3> position, Span<const uint32_t> triangle) {
+  constexpr double k_needle = 1e-5;
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    const Vec3 a = position[triangle[t + 1]] - position[triangle[t]];
+    const Vec3 b = position[triangle[t + 2]] - position[triangle[t]], c = b - a;
+    if (!(length(cross(a, b)) > k_needle * (dot(a, a) + dot(b, b) + dot(c, c)))) return true;
+  }
+  return false;
+}
+
+// Raises the mesh of scratch->spatial from its border along the normals, refines it where that
+// stretched it, and raises it again. It stays as it was where this makes needles of triangles.
+static Status raise_patch(const mesh::Loops& loops, double spacing, PatchScratch* scratch) {
+  constexpr int k_rounds = 4;
+  Context& context = scratch->vertex.context();
+  Array<Vec3> place(context);
+  Array<uint32_t> triangle(context);
+  TRY(place.copy(scratch->place.span()));
+  TRY(triangle.copy(scratch->spatial.triangle.span()));
+  for (int round = 0; round < k_rounds; ++round) {
+    if (round > 0) TRY(mesh::refine_loops(context, spacing, loops.start, &place, &triangle));
+    if (has_needles(place.span(), triangle.span())) return {};
+    const Status raised = mesh::raise_dome(context, loops, triangle.span(), place.span());
+    if (raised.code == Code::not_positive_definite) return {};
+    TRY(raised);
+  }
+  if (has_needles(place.span(), triangle.span())) return {};
+  scratch->place = static_cast<Array<Vec3>&&>(place);
+  scratch->spatial.triangle = static_cast<Array<uint32_t>&&>(triangle);
   return {};
 }
 
-static Status mesh_patch(const Network& network, const CurveVertices& vertices,
-                         const Enclosure& enclosure, double least_facing, uint32_t patch,
-                         PatchScratch* scratch, Builder* builder) {
-  TRY(border_of_patch(network, vertices, patch, &scratch->border));
-  TRY(normals_of_border(network, vertices, patch, &scratch->loop_normal));
-  const size_t n = scratch->border.size();
-  TRY(scratch->loop.resize(n));
-  for (size_t i = 0; i < n; ++i) {
-    scratch->loop[i] = vertices.position[scratch->border[i]];
+static Status mesh_in_space(double spacing, PatchScratch* scratch) {
+  Context& context = scratch->vertex.context();
+  const size_t n = scratch->vertex.size();
+  if (n != scratch->border.size()) {
+    return fail(Code::patch_folded,
+                "no plane shows the patch without folds, and curves lie inside it");
   }
-  const double spacing = mean_edge(vertices, scratch->border.span());
-  const Status status = mesh_in_plane(vertices, enclosure, spacing, least_facing, scratch);
+  const mesh::Loops loops = {scratch->border.start.span(), scratch->position.span(),
+                             scratch->normal.span()};
+  TRY(mesh::mesh_loops(context, loops, spacing, &scratch->spatial));
+  TRY(scratch->place.copy(scratch->position.span()));
+  for (const Vec3& p : scratch->spatial.inner) TRY(scratch->place.push(p));
+  const Border& border = scratch->border;
+  scratch->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
+  if (scratch->raised) TRY(raise_patch(loops, spacing, scratch));
+  return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
+}
+
+static bool may_be_meshed_otherwise(const Status& status) {
+  return status.code == Code::patch_without_plane || status.code == Code::patch_folded;
+}
+
+static Status mesh_patch(const Network& network, const CurveVertices& vertices, double least_facing,
+                         uint32_t patch, PatchScratch* scratch, Builder* builder) {
+  TRY(take_domain(network, vertices, patch, scratch));
+  const Border& border = scratch->border;
+  const double spacing = border_length(border) / static_cast<double>(border.size());
+  Plane plane;
+  scratch->raised = false;
+  Status status = fit_plane(border, &plane);
+  if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
   if (status.ok()) {
     TRY(builder->mesh->way.push(PatchWay::plane));
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
-  if (status.code != Code::patch_without_plane && status.code != Code::patch_folded) return status;
-  TRY(check_border(scratch->border.context(), scratch->loop.span(), scratch->loop_normal.span()));
+  if (!may_be_meshed_otherwise(status)) return status;
+  TRY(check_border(border));
   TRY(mesh_in_space(spacing, scratch));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
@@ -203,6 +376,7 @@ static Status split_chord(const Chord& chord, Builder* builder) {
   }
   const uint32_t middle = mesh->vertices++;
   TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
+  TRY(mesh->placed.push(builder->raised[chord.patch]));
   const uint32_t* own = &builder->patch_start[chord.patch];
   const uint32_t first_split = builder->patch_start.back();
   const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
@@ -221,10 +395,7 @@ static Status split_shared_chords(const Network& network, const CurveVertices& v
       TRY(builder->chord.push({a < b ? a : b, a < b ? b : a, k_none}));
     }
   }
-  sort(builder->chord.span(), [](const Chord& x, const Chord& y) {
-    if (x.a != y.a) return x.a < y.a;
-    return x.b != y.b ? x.b < y.b : x.patch < y.patch;
-  });
+  sort(builder->chord.span(), before);
   const Span<const Chord> chords = builder->chord.span();
   for (size_t i = 0; i < chords.size(); ++i) {
     const auto same = [&](size_t k) {
@@ -237,21 +408,26 @@ static Status split_shared_chords(const Network& network, const CurveVertices& v
 }
 
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    PatchMesh* mesh) {
+                    bool partial, PatchMesh* mesh) {
   Context& context = mesh->triangle.context();
   Builder builder(context, mesh);
   PatchScratch scratch(context);
-  Enclosure enclosure(context);
-  TRY(enclosure.find_components(network, vertices));
+  TRY(scratch.local.assign(vertices.position.size(), k_none));
   mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
   TRY(mesh->start.copy(vertices.position.span()));
+  TRY(mesh->placed.assign(mesh->vertices, 0));
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    TRY(at_patch(mesh_patch(network, vertices, enclosure, least_facing, p, &scratch, &builder),
-                 network, p));
+    const Status status =
+        at_patch(mesh_patch(network, vertices, least_facing, p, &scratch, &builder), network, p);
+    TRY(mesh->status.push(status));
+    TRY(builder.raised.push(scratch.raised));
+    if (!status.ok() && !(partial && may_be_left_out(status))) return status;
+    if (!status.ok()) TRY(mesh->way.push(PatchWay::plane));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+  if (mesh->patch.empty() && !mesh->status.empty()) return mesh->status[0];
   TRY(split_shared_chords(network, vertices, &builder));
   TRY(mesh->shape.resize(mesh->patch.size()));
   for (size_t t = 0; t < mesh->shape.size(); ++t) {

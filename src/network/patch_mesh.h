@@ -26,17 +26,27 @@ struct PatchMesh {
   Array<uint32_t> patch;             // of each triangle
   Array<mesh::TriangleShape> shape;  // of each triangle, in its patch's plane or in space
   Array<PatchWay> way;               // of each patch
+  Array<Status> status;              // of each patch: why it has no triangles
   Array<Vec3> start;                 // of each vertex: on its curve, in its plane or in space
+  Array<uint8_t> placed;             // of each vertex: free, and where it starts in space matters
 
   explicit PatchMesh(Context& context)
-      : triangle(context), patch(context), shape(context), way(context), start(context) {}
+      : triangle(context),
+        patch(context),
+        shape(context),
+        way(context),
+        status(context),
+        start(context),
+        placed(context) {}
 };
 
 // `least_facing`: a plane is taken only where the mean cosine between its normal and those of the
 // border is at least this; -1 takes every plane that shows the border without folds. Fails, naming
-// the patch, with patch_several_loops, with patch_without_plane where the border runs clockwise,
-// with patch_folded where it crosses itself or encloses nothing in space either.
+// the patch and a curve of it, with patch_without_plane where the border runs clockwise, with
+// patch_folded where it crosses itself or encloses nothing in space either, or curves lie inside a
+// patch that no plane shows. With `partial` such patches are left without triangles, their vertices
+// maybe too; it fails only where no patch can be made.
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    PatchMesh* mesh);
+                    bool partial, PatchMesh* mesh);
 
 }  // namespace wireskin::network

@@ -7,74 +7,40 @@ namespace wireskin::network {
 // The mean of unit normals must be at least this long for its direction to mean anything.
 static constexpr double k_least_mean_normal = 0.05;
 
-// Where a border begins must not depend on the order or the direction of the curves, or these would
-// change the triangulation: at its least point, nodes (whose bits are the caller's) before others.
-static bool begins_before(const CurveVertices& vertices, uint32_t nodes, uint32_t a, uint32_t b) {
-  if ((a < nodes) != (b < nodes)) return a < nodes;
-  const Vec3 &p = vertices.position[a], &q = vertices.position[b];
-  if (p.x != q.x) return p.x < q.x;
-  return p.y != q.y ? p.y < q.y : p.z < q.z;
-}
-
-Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t p,
-                       Array<uint32_t>* border) {
-  Array<uint32_t> round(border->context());
-  for (uint32_t h : network.cycle(p)) {
-    const uint32_t s = h / 2, edges = vertices.edges[s];
-    for (uint32_t k = 0; k < edges; ++k) {
-      TRY(round.push(segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)));
-    }
-  }
-  size_t first = 0;
-  for (size_t i = 1; i < round.size(); ++i) {
-    if (begins_before(vertices, vertices.nodes, round[i], round[first])) first = i;
-  }
-  TRY(border->resize(round.size()));
-  for (size_t i = 0; i < round.size(); ++i) (*border)[i] = round[(first + i) % round.size()];
-  return {};
-}
-
-// Twice the vector area of the border.
-static Vec3 vector_area(const CurveVertices& vertices, Span<const uint32_t> border,
-                        const Vec3& base) {
-  Vec3 area;
-  for (size_t i = 0; i < border.size(); ++i) {
-    const uint32_t next = border[i + 1 == border.size() ? 0 : i + 1];
-    area += cross(vertices.position[border[i]] - base, vertices.position[next] - base);
-  }
-  return area;
-}
-
-Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border,
-                 Span<const Vec3> normal, Plane* plane) {
-  Vec3 positions, normals;
-  size_t known = 0;
+Plane plane_across(const Border& border, const Vec3& normal) {
+  Plane plane;
   const double share = 1.0 / static_cast<double>(border.size());
-  for (size_t i = 0; i < border.size(); ++i) {
-    positions += share * vertices.position[border[i]];
-    normals += share * normal[i];
-    known += normal[i] != Vec3{};
+  for (const Vec3& p : border.position) plane.origin += share * p;
+  plane.normal = normal;
+  // What is left of a vector nearly along the normal is rounding and may point anywhere.
+  constexpr double k_least_sine = 1e-3;
+  const Vec3 first = border.position[0] - plane.origin;
+  Vec3 axis = reject(first, normal);
+  if (!(dot(axis, axis) > k_least_sine * k_least_sine * dot(first, first))) {
+    axis = reject(std::fabs(normal.x) > 0.8 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, normal);
   }
-  if (known == 0) {
-    normals = unit(vector_area(vertices, border, positions));
-    known = border.size();
+  plane.u = unit(axis);
+  plane.v = cross(normal, plane.u);
+  return plane;
+}
+
+Status fit_plane(const Border& border, Plane* plane) {
+  Vec3 normal;
+  const double share = 1.0 / static_cast<double>(border.size());
+  size_t count = 0;
+  for (const Vec3& n : border.normal) {
+    normal += share * n;
+    count += n != Vec3{};
   }
-  if (!(length(normals) >= k_least_mean_normal * share * static_cast<double>(known))) {
+  if (count == 0) {
+    normal = unit(vector_area(border));
+    count = border.size();
+  }
+  if (!(length(normal) >= k_least_mean_normal * share * static_cast<double>(count))) {
     return fail(Code::patch_without_plane,
                 "the normals of the patch's border cancel out, so it has no plane");
   }
-  plane->origin = positions;
-  plane->normal = unit(normals);
-  // What is left of a vector nearly along the normal is rounding and may point anywhere.
-  constexpr double k_least_sine = 1e-3;
-  const Vec3 first = vertices.position[border[0]] - positions;
-  Vec3 axis = reject(first, plane->normal);
-  if (!(dot(axis, axis) > k_least_sine * k_least_sine * dot(first, first))) {
-    const bool along_x = std::fabs(plane->normal.x) > 0.8;
-    axis = reject(along_x ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, plane->normal);
-  }
-  plane->u = unit(axis);
-  plane->v = cross(plane->normal, plane->u);
+  *plane = plane_across(border, unit(normal));
   return {};
 }
 

@@ -1,13 +1,13 @@
 // The plane of a patch: through the mean position of its border, across the mean normal; across the
 // vector area of the border where it has no normals.
 //
-// In: the vertices of a cycle in order. Out: plane coordinates, so that a border that runs
+// In: the loops of a border. Out: plane coordinates, so that a border that runs
 // counter-clockwise seen from the tip of the normal does so in the plane. The first axis points
 // from the mean to the first vertex, so that a rotated network gives rotated patches. O(border).
 // Source: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3.
 #pragma once
 
-#include "network/resample.h"
+#include "network/border.h"
 
 namespace wireskin::network {
 
@@ -19,14 +19,11 @@ struct Plane {
   double height(const Vec3& p) const { return dot(p - origin, normal); }
 };
 
-// The vertices of patch p's border in order, counter-clockwise.
-Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t p,
-                       Array<uint32_t>* border);
-
 // Fails with patch_without_plane (no place) where the normals cancel out.
-// `normals`: of the patch along its border, zero where they are not known.
-Status fit_plane(const CurveVertices& vertices, Span<const uint32_t> border,
-                 Span<const Vec3> normals, Plane* plane);
+Status fit_plane(const Border& border, Plane* plane);
+
+// The plane of that normal through the mean of the border.
+Plane plane_across(const Border& border, const Vec3& normal);
 
 // Rounds plane coordinates, and a spacing, to a grid of 2^-32 of the polygon's extent. Which
 // triangles a patch gets then does not hang on the last bits of its border, which depend on the

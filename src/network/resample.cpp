@@ -111,6 +111,12 @@ Status resample(const curves::Curves& curves, Span<const Node> nodes, const Netw
     TRY(place_vertices(curves, network, s, vertices));
     if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
   }
+  for (uint32_t c = 0; c < curves.size(); ++c) {  // points
+    const curves::Curve curve = curves[c];
+    if (curve.node.size() != 1 || curve.node[0] >= nodes.size()) continue;
+    uint32_t& of = vertices->curve[curve.node[0]];
+    if (of > c) of = c;
+  }
   return curves.right.empty() ? Status{} : resample_sides(curves, network, vertices);
 }
 

@@ -55,32 +55,13 @@ Status resample_sides(const curves::Curves& curves, const Network& network,
   return {};
 }
 
-// The normal on the left of half-segment h at its vertex k, counted in its own direction.
-static const Vec3& left_normal(const CurveVertices& vertices, uint32_t h, uint32_t k) {
-  const uint32_t s = h / 2, first = vertices.side_start[s];
-  return h % 2 == 0 ? vertices.left[first + k] : vertices.right[first + vertices.edges[s] - k];
-}
-
-Status normals_of_border(const Network& network, const CurveVertices& vertices, uint32_t p,
-                         Array<Vec3>* normals) {
-  const Span<const uint32_t> cycle = network.cycle(p);
-  normals->clear();
-  for (size_t i = 0; i < cycle.size(); ++i) {
-    const uint32_t h = cycle[i], before = cycle[i == 0 ? cycle.size() - 1 : i - 1];
-    const uint32_t s = h / 2, edges = vertices.edges[s];
-    for (uint32_t k = 0; k < edges; ++k) {
-      if (vertices.side_start.empty()) {
-        const uint32_t v = segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k);
-        TRY(normals->push(vertices.normal[v]));
-      } else if (k > 0) {
-        TRY(normals->push(left_normal(vertices, h, k)));
-      } else {
-        TRY(normals->push(unit(left_normal(vertices, before, vertices.edges[before / 2]) +
-                               left_normal(vertices, h, 0))));
-      }
-    }
+Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t h, uint32_t k) {
+  const uint32_t s = h / 2, edges = vertices.edges[s];
+  if (vertices.side_start.empty()) {
+    return vertices.normal[segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)];
   }
-  return {};
+  const uint32_t first = vertices.side_start[s];
+  return h % 2 == 0 ? vertices.left[first + k] : vertices.right[first + edges - k];
 }
 
 }  // namespace wireskin::network

@@ -13,9 +13,8 @@ namespace wireskin::network {
 Status resample_sides(const curves::Curves& curves, const Network& network,
                       CurveVertices* vertices);
 
-// The normals of a patch's own side along its border, in the order of border_of_patch; at a node
-// the mean of the two segments that meet there. Zero where they are not known.
-Status normals_of_border(const Network& network, const CurveVertices& vertices, uint32_t p,
-                         Array<Vec3>* normals);
+// The normal on the left of half-segment h at its vertex k, counted in its own direction; zero
+// where it is not known.
+Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t h, uint32_t k);
 
 }  // namespace wireskin::network

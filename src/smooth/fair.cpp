@@ -1,6 +1,7 @@
 #include "smooth/fair.h"
 
 #include "mesh/care.h"
+#include "mesh/curvature.h"
 #include "smooth/displace.h"
 #include "smooth/node_curvature.h"
 #include "smooth/system.h"
@@ -106,6 +107,39 @@ static Status harmonic_start(Context& context, const FairMesh& mesh, double* res
   TRY(system.prepare(laplacian, mesh.on_curve, Order::one, mesh.places));  // soft curves move later
   TRY(system.factor(weight.span(), {}));
   return system.solve({}, {}, mesh.position, residual);
+}
+
+namespace {
+
+// The paper's steps are linear in what the curves hold, so they flatten a patch whose normals
+// cancel out. Vertices with a place of their own are held there meanwhile.
+struct Placed {
+  Array<uint8_t> on_curve, held;
+  Array<Vec3> normal;
+
+  explicit Placed(Context& context) : on_curve(context), held(context), normal(context) {}
+};
+
+}  // namespace
+
+static Status put_in_place(const FairMesh& mesh, Placed* placed, FairMesh* fixed) {
+  *fixed = mesh;
+  if (mesh.placed.empty()) return {};
+  TRY(placed->on_curve.copy(mesh.on_curve));
+  TRY(placed->held.copy(mesh.held));
+  TRY(placed->normal.resize(mesh.position.size()));
+  for (size_t v = 0; v < mesh.placed.size(); ++v) {
+    if (mesh.placed[v]) mesh.position[v] = mesh.start[v];
+  }
+  mesh::vertex_normals(mesh.position, mesh.triangle, placed->normal.span());
+  for (size_t v = 0; v < mesh.placed.size(); ++v) {
+    if (!mesh.placed[v]) continue;
+    placed->on_curve[v] = placed->held[v] = 1;
+    mesh.normal[v] = placed->normal[v];
+  }
+  fixed->on_curve = placed->on_curve.span();
+  fixed->held = placed->held.span();
+  return {};
 }
 
 static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::TriangleShape>* shapes,
@@ -225,6 +259,8 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
             FairReport* report) {
   Array<mesh::TriangleShape> shapes(context);
   Array<Vec3> curve_normal(context);
+  Placed placed(context);
+  FairMesh fixed;
   Guard guard(context);
   Unfolded safe(context);
   TRY(safe.position.copy(mesh.position));
@@ -232,9 +268,10 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   TRY(safe.folds.assign(patches, 0));
   TRY(safe.known.assign(patches, 0));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
+  TRY(put_in_place(mesh, &placed, &fixed));
   TRY(unfold(context, mesh, guard, &safe));
   for (int k = 0; k < options.paper_steps; ++k) {
-    TRY(paper_step(context, mesh, &shapes, report));
+    TRY(paper_step(context, fixed, &shapes, report));
     TRY(unfold(context, mesh, guard, &safe));
   }
   // Soft curves take the normals that the last step smoothed; held ones have those given.

@@ -30,6 +30,9 @@ struct FairMesh {
   Span<const uint8_t> bare = {};                // held, on a border, normal not known; empty: none
   Span<uint8_t> guarded = {};                   // out: of each patch, whether it was held back
   Places places = {};                           // for the order of elimination
+  // Free vertices with a place to start from instead of the harmonic one; empty: none.
+  Span<const Vec3> start = {};
+  Span<const uint8_t> placed = {};
 };
 
 struct FairOptions {

@@ -53,7 +53,8 @@ struct Workpiece {
   Span<uint32_t> triangle;
   Span<const uint8_t> on_curve, held, on_border, bare;
   smooth::Soft soft;
-  Span<const Vec3> place;
+  Span<const Vec3> start = {};
+  Span<const uint8_t> placed = {};
 };
 
 }  // namespace
@@ -64,7 +65,7 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   Array<uint32_t> vertex_patch(context);
   TRY(vertex_patch.assign(piece.position.size(), 0));
   mesh::patches_of_vertices(piece.triangle, surface->patch.span(), vertex_patch.span());
-  const smooth::Places places = {piece.place, vertex_patch.span()};
+  const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
     const smooth::Domain domain = {piece.triangle, start.shape,     piece.on_curve,
                                    piece.held,     piece.on_border, start.metric,
@@ -88,7 +89,9 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                  planes ? start.shape : Span<const mesh::TriangleShape>{},
                                  piece.bare,
                                  surface->patch_guarded.span(),
-                                 places};
+                                 places,
+                                 piece.start,
+                                 piece.placed};
   TRY(smooth::fair(context, mesh, counts->patches, options, &report));
   counts->residual = report.residual;
   counts->guarded_patches = report.guarded_patches;
@@ -96,22 +99,40 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   return {};
 }
 
+// Held vertices whose normal nobody knows, as points may be; empty where there are none.
+static Status find_bare(const Constraints& constraints, const Surface& surface,
+                        Array<uint8_t>* bare) {
+  bool any = false;
+  for (size_t v = 0; !surface.curve_edge.empty() && v < surface.position.size(); ++v) {
+    any = any || (constraints.held[v] && surface.constraint_normal[v] == Vec3{});
+  }
+  if (!any) return {};
+  TRY(bare->resize(surface.position.size()));
+  for (size_t v = 0; v < bare->size(); ++v) {
+    (*bare)[v] = constraints.held[v] && surface.constraint_normal[v] == Vec3{};
+  }
+  return {};
+}
+
 // Smooths the surface by the chosen method and measures the result.
 Status smooth_surface(Context& context, const Start& start, const Constraints& constraints,
                       smooth::Method method, Surface* surface) {
   Array<Vec3> normal(context), anchor(context);
+  Array<uint8_t> bare(context);
   TRY(normal.copy(surface->constraint_normal.span()));
   if (!constraints.cutoff.empty()) TRY(anchor.copy(surface->position.span()));
+  TRY(find_bare(constraints, *surface, &bare));
   const Workpiece piece = {surface->position.span(),
                            normal.span(),
                            surface->triangle.span(),
                            constraints.on_curve.span(),
                            constraints.held.span(),
                            start.on_border,
-                           {},
+                           bare.span(),
                            {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
                             surface->constraint_normal.span(), surface->counts.spacing},
-                           start.place};
+                           start.position,
+                           start.placed};
   TRY(apply_method(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
 }
@@ -120,10 +141,16 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
 Status smooth_creased(Context& context, const Start& start, const Constraints& constraints,
                       smooth::Method method, network::CreasedMesh* creased, Surface* surface) {
   const size_t copies = creased->position.size();
-  Array<Vec3> anchor(context), given_normal(context), place(context);
-  TRY(place.resize(copies));
+  Array<Vec3> anchor(context), given_normal(context);
   Array<double> cutoff(context), share(context);
-  Array<uint8_t> on_curve(context), held(context);
+  Array<uint8_t> on_curve(context), held(context), placed(context);
+  Array<Vec3> place(context);
+  TRY(place.resize(copies));
+  TRY(placed.resize(copies));
+  for (size_t c = 0; c < copies; ++c) {
+    place[c] = start.position[creased->cut.origin[c]];
+    placed[c] = start.placed.empty() ? 0 : start.placed[creased->cut.origin[c]];
+  }
   TRY(on_curve.resize(copies));
   TRY(held.resize(copies));
   if (!constraints.cutoff.empty()) {
@@ -136,7 +163,6 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
     const uint32_t v = creased->cut.origin[c];
     on_curve[c] = constraints.on_curve[v];
     held[c] = constraints.held[v];
-    place[c] = start.place[v];
     if (cutoff.empty()) continue;
     cutoff[c] = constraints.cutoff[v];
     share[c] = constraints.share[v];
@@ -150,7 +176,8 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       creased->on_border.span(),
       creased->bare.span(),
       {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing},
-      place.span()};
+      place.span(),
+      placed.span()};
   TRY(apply_method(context, start, piece, method, surface));
   network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
@@ -173,6 +200,7 @@ Status measure_constraints(const CurveSet& set, Span<const Vec3> given, Surface*
       if (line.empty()) TRY(line.push(surface->position[surface->curve_edge[2 * edge]]));
       TRY(line.push(surface->position[surface->curve_edge[2 * edge + 1]]));
     }
+    if (line.empty()) continue;  // a point, or a curve of patches that were left out
     const size_t first = set.start[c], count = set.start[c + 1] - first;
     const curves::LineDistance distance =
         curves::distance_to_line(given.part(first, count), line.span(), set.closed[c] != 0);

@@ -15,7 +15,10 @@ struct Start {
   Span<const mesh::TriangleShape> shape;
   smooth::Metric metric;
   Span<const uint8_t> on_border;
-  Span<const Vec3> place = {};  // roughly where each vertex stands; for the order of elimination
+  // Of each vertex: roughly where it will stand (for the order of elimination), and exactly where it
+  // starts if it is placed.
+  Span<const Vec3> position = {};
+  Span<const uint8_t> placed = {};  // free vertices; empty: none
 };
 
 // Neighbours, the check of the mesh, and the counts that follow from them.

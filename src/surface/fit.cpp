@@ -27,6 +27,11 @@ static curves::Samples right_samples_of(const CurveSet& set, uint32_t curve) {
   return samples;
 }
 
+// A curve of one sample is a point that the surface passes through.
+static bool is_point(const CurveSet& set, uint32_t curve) {
+  return set.start[curve + 1] - set.start[curve] == 1 && !set.closed[curve];
+}
+
 static Status at_curve(Status status, uint32_t curve) {
   if (!status.ok()) status.place.curve = curve;
   return status;
@@ -35,7 +40,8 @@ static Status at_curve(Status status, uint32_t curve) {
 // What sharp curves need besides: the normals on their right, and those of their nodes.
 static Status fit_sides(const CurveSet& set, Span<network::Node> nodes, curves::Curves* fitted) {
   for (uint32_t c = 0; c < set.sharp.size(); ++c) {
-    if (set.sharp[c]) TRY(at_curve(curves::check_samples(right_samples_of(set, c)), c));
+    if (set.sharp[c] && !is_point(set, c))
+      TRY(at_curve(curves::check_samples(right_samples_of(set, c)), c));
   }
   TRY(curves::fit_right_normals({set.start, set.right, set.sharp}, fitted));
   return network::complete_node_normals(*fitted, nodes);
@@ -80,8 +86,12 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
   TRY(kept_start->push(0));
   for (uint32_t c = 0; c < counts->curves; ++c) {
     // Neighbours that differed by less than the tolerance may have become one point.
-    TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
-    TRY(at_curve(curves::thin(samples_of(set, node, c), &thinned), c));
+    if (is_point(set, c)) {
+      TRY(thinned.assign(1, 0));
+    } else {
+      TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
+      TRY(at_curve(curves::thin(samples_of(set, node, c), &thinned), c));
+    }
     for (uint32_t i : thinned) TRY(kept->push(i));
     TRY(kept_start->push(static_cast<uint32_t>(kept->size())));
   }
@@ -124,11 +134,12 @@ Status fit_curves(Context& context, const CurveSet& set, double size,
   Array<uint32_t> node(context), kept_start(context), kept(context);
   counts->curves = static_cast<uint32_t>(set.closed.size());
   for (uint32_t c = 0; c < counts->curves; ++c) {
-    TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
+    if (!is_point(set, c)) TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
   }
   const network::SampleNumbers samples = {set.start,  set.number, set.position,
                                           set.normal, set.sharp,  set.right};
   TRY(network::find_nodes(samples, k_node_tolerance * size, nodes, &node));
+  TRY(network::add_loose_ends(samples, set.closed, nodes, node.span()));
   counts->nodes = static_cast<uint32_t>(nodes->size());
   unite_nodes(set, node.span(), nodes->span());
   TRY(smooth_curves(context, set, node.span(), smoothing, nodes->span(), &kept_start, &kept,

@@ -75,6 +75,32 @@ TEST_CASE("every value under its name") {
   CHECK(values["total_ms"] == "14");
 }
 
+TEST_CASE("patches that are special are listed") {
+  CHECK(JsonReader(report_json({Arguments(), filled_report()})).values["special_patches.length"] ==
+        "0");
+  wsk_surface_view surface = {};
+  const uint8_t way[] = {WSK_PATCH_PLANE, WSK_PATCH_MINIMAL_AREA, WSK_PATCH_PLANE};
+  const wsk_status status[] = {WSK_OK, WSK_OK, WSK_ERROR_PATCH_FOLDED};
+  const char* const sentence[] = {"", "", "it crosses itself"};
+  const uint32_t start[] = {0, 2, 3, 5}, curve[] = {0, 1, 1, 2, 7};
+  surface.patch_count = 3;
+  surface.patch_way = way;
+  surface.patch_status = status;
+  surface.patch_sentence = sentence;
+  surface.patch_curve_start = start;
+  surface.patch_curves = curve;
+  auto values = JsonReader(report_json({Arguments(), filled_report(), &surface})).values;
+  CHECK(values["special_patches.length"] == "2");
+  CHECK(values["special_patches.0.patch"] == "1");
+  CHECK(values["special_patches.0.way"] == "minimal_area");
+  CHECK(values["special_patches.0.curves.0"] == "1");
+  CHECK(values["special_patches.1.patch"] == "2");
+  CHECK(values["special_patches.1.status"] == "patch_folded");
+  CHECK(values["special_patches.1.sentence"] == "it crosses itself");
+  CHECK(values["special_patches.1.curves.length"] == "2");
+  CHECK(values["special_patches.1.curves.1"] == "7");
+}
+
 TEST_CASE("a failure with its place") {
   wsk_report report = filled_report();
   report.status = WSK_ERROR_ZERO_NORMAL;

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "network/group.h"
 #include "network/patch_mesh.h"
 #include "support/meshes.h"
 
@@ -81,8 +82,12 @@ struct Stages {
     }
     return status.ok();
   }
+  bool group(double spacing) {
+    if (resample(spacing)) status = wireskin::network::group_patches(vertices, &network);
+    return status.ok();
+  }
   bool mesh_patches(double spacing) {
-    if (resample(spacing)) status = wireskin::network::mesh_patches(network, vertices, -1.0, &mesh);
+    if (group(spacing)) status = wireskin::network::mesh_patches(network, vertices, -1.0, false, &mesh);
     return status.ok();
   }
 

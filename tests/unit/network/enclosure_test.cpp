@@ -9,36 +9,54 @@ using namespace wireskin::network;
 
 namespace {
 
-// A disc of radius 4 with another circle, `boundary` or not, somewhere.
-Stages meshed(Vec3 centre, double radius) {
+// A disc of radius 4 with another circle, tagged or not, somewhere; the patch that encloses the
+// latter.
+uint32_t encloses(Vec3 centre, double radius) {
   CurveNet net;
   net.add_circle({}, 4, true);
   net.add_circle(centre, radius, true);
-  return Stages(net);
-}
-
-Status status_of(Vec3 centre, double radius) {
-  Stages s(meshed(centre, radius));
-  s.mesh_patches(0.5);
-  return s.status;
+  Stages s(net);
+  REQUIRE(s.resample(0.5));
+  Components components(s.heap.context);
+  Array<Enclosing> enclosing(s.heap.context);
+  must(find_components(s.network, s.vertices, &components));
+  must(find_enclosing(s.network, s.vertices, components, &enclosing));
+  REQUIRE(enclosing.size() == 2);
+  return enclosing[1].patch;
 }
 
 }  // namespace
 
-TEST_CASE("enclosure: a curve inside a patch is named") {
-  const Status s = status_of({0.5, 0.5, 0}, 1);
-  CHECK(s.code == Code::patch_several_loops);
-  CHECK(s.place.curve == 1);
-  CHECK(s.place.patch == 0);
-  CHECK(status_of({3.4, 0, 0}, 0.3).code == Code::patch_several_loops);
-  CHECK(status_of({0, 0, 0.35}, 1).code == Code::patch_several_loops);  // a little above
+TEST_CASE("enclosure: a curve inside a patch is found") {
+  CHECK(encloses({0.5, 0.5, 0}, 1) == 0);
+  CHECK(encloses({3.4, 0, 0}, 0.3) == 0);
+  CHECK(encloses({0, 0, 0.35}, 1) == 0);  // a little above
 }
 
 TEST_CASE("enclosure: curves beside, far above and across are not inside") {
-  CHECK(status_of({9, 0, 0}, 1).ok());
-  CHECK(status_of({0, 0, 1}, 1).ok());
-  CHECK(status_of({0, 0, -3}, 2).ok());
-  CHECK(status_of({4, 0, 0}, 1).ok());  // crosses the border without a node, which is no hole
+  CHECK(encloses({9, 0, 0}, 1) == k_none);
+  CHECK(encloses({0, 0, 1}, 1) == k_none);
+  CHECK(encloses({0, 0, -3}, 2) == k_none);
+  CHECK(encloses({4, 0, 0}, 1) == k_none);  // crosses the border without a node, which is no hole
+}
+
+TEST_CASE("enclosure: of nested patches the innermost") {
+  CurveNet net;
+  for (double radius : {1.0, 4.0, 2.0, 3.0}) net.add_circle({}, radius, false);
+  Stages s(net);
+  REQUIRE(s.resample(0.5));
+  Components components(s.heap.context);
+  Array<Enclosing> enclosing(s.heap.context);
+  must(find_components(s.network, s.vertices, &components));
+  must(find_enclosing(s.network, s.vertices, components, &enclosing));
+  const auto curve_of = [&](uint32_t component) {
+    const uint32_t patch = enclosing[component].patch;
+    return patch == k_none ? k_none : s.network.segment[s.network.cycle(patch)[0] / 2].curve;
+  };
+  CHECK(curve_of(0) == 2);
+  CHECK(curve_of(1) == k_none);
+  CHECK(curve_of(2) == 3);
+  CHECK(curve_of(3) == 1);
 }
 
 TEST_CASE("enclosure: the other patches of the own component do not count") {
@@ -46,14 +64,4 @@ TEST_CASE("enclosure: the other patches of the own component do not count") {
   CHECK(s.mesh_patches(0.3));
   Stages saddle(saddle_net());
   CHECK(saddle.mesh_patches(0.3));
-}
-
-TEST_CASE("enclosure: a point in a component of many segments") {
-  CurveNet net;
-  net.add_circle({}, 4, true);
-  net.add_circle({}, 1, false);
-  net.add_line({1, 0, 0}, {-1, 0, 0}, {0, 0, 1});  // joined to the inner circle only
-  Stages s(net);
-  s.mesh_patches(0.3);
-  CHECK(s.status.code == Code::patch_several_loops);
 }

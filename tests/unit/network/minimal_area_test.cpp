@@ -96,7 +96,7 @@ Status mesh_wires(const Wires& wires, double spacing, network::PatchMesh* patche
   const std::vector<uint8_t> boundary(wires.curves.size(), 0);
   TRY(network::find_patches(curves, {boundary.data(), boundary.size()}, nodes.span(), &network));
   TRY(network::resample(curves, nodes.span(), network, spacing, &vertices));
-  return network::mesh_patches(network, vertices, -1.0, patches);
+  return network::mesh_patches(network, vertices, -1.0, false, patches);
 }
 
 // A closed manifold of this Euler characteristic, with sound shapes.

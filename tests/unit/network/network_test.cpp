@@ -62,8 +62,14 @@ TEST_CASE("network: closed surfaces") {
   check_net(octant_net(), 6, 12, times(8, 3));
   check_net(torus_net(4, 4), 16, 32, times(16, 4));
   check_net(torus_net(2, 2), 4, 8, times(4, 4));
-  // Along a single parallel every patch would have it on both sides.
-  CHECK(Stages(torus_net(2, 1)).status.code == Code::patch_several_loops);
+  // Along a single parallel every patch has it on both sides: bands, and it lies inside them.
+  const Stages s(torus_net(2, 1));
+  REQUIRE(s.status.ok());
+  CHECK(s.network.patches() == 2);
+  CHECK(s.network.loop.count() == 4);
+  CHECK(s.network.inner[0].size() == 1);
+  // One meridian and one parallel: a patch with a handle.
+  CHECK(Stages(torus_net(1, 1)).status.code == Code::patch_several_loops);
 }
 
 TEST_CASE("network: surfaces with border drop what lies outside") {
@@ -152,15 +158,20 @@ TEST_CASE("network: dangling ends are named") {
   CHECK(Stages(net).status.place.sample == 0);
 }
 
-TEST_CASE("network: a border that passes a curve on both sides is several loops") {
+TEST_CASE("network: a curve passed on both sides lies inside its patch") {
   // A ring on a string inside a disc.
   CurveNet net;
   net.add_circle({}, 4, true);
   net.add_circle({}, 1, false);
   net.add_line({1, 0, 0}, {4, 0, 0}, {0, 0, 1});
   const Stages s(net);
-  CHECK(s.status.code == Code::patch_several_loops);
-  CHECK(s.status.place.curve == 2);
+  REQUIRE(s.status.ok());
+  REQUIRE(s.network.patches() == 2);
+  const uint32_t annulus = s.network.inner[0].empty() ? 1 : 0;
+  CHECK(s.network.patch_start[annulus + 1] - s.network.patch_start[annulus] == 2);
+  REQUIRE(s.network.inner[annulus].size() == 1);
+  CHECK(s.network.segment[s.network.inner[annulus][0]].curve == 2);
+  CHECK(s.network.inner[1 - annulus].empty());
 }
 
 TEST_CASE("network: a normal along a curve is named") {

@@ -182,7 +182,7 @@ TEST_CASE("patch_mesh: every failed allocation is a status, without a leak") {
     Stages s(melon(3, 0.3));
     REQUIRE(s.resample(100.0));
     first = s.heap.allocator.calls;
-    must(mesh_patches(s.network, s.vertices, -1.0, &s.mesh));
+    must(mesh_patches(s.network, s.vertices, -1.0, false, &s.mesh));
     last = s.heap.allocator.calls;
   }
   CHECK(last > first);

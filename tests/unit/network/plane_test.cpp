@@ -4,7 +4,6 @@
 
 #include <set>
 
-#include "network/side_normals.h"
 #include "support/curve_nets.h"
 
 using namespace unit;
@@ -17,16 +16,17 @@ namespace {
 
 struct Fit {
   Heap heap;
-  CurveVertices vertices{heap.context};
-  std::vector<uint32_t> border;
+  Border border{heap.context};
   Plane plane;
   Status status;
 
   Fit(const std::vector<Vec3>& positions, const std::vector<Vec3>& normals) {
-    must(vertices.position.copy(view(positions)));
-    must(vertices.normal.copy(view(normals)));
-    for (uint32_t v = 0; v < positions.size(); ++v) border.push_back(v);
-    status = fit_plane(vertices, view(border), vertices.normal.span(), &plane);
+    must(border.position.copy(view(positions)));
+    must(border.normal.copy(view(normals)));
+    must(border.start.push(0));
+    for (uint32_t v = 0; v < positions.size(); ++v) must(border.vertex.push(v));
+    must(border.start.push(border.size()));
+    status = fit_plane(border, &plane);
   }
 };
 
@@ -80,22 +80,20 @@ TEST_CASE("plane: a first vertex above or in the mean still gives a frame") {
 TEST_CASE("plane: borders run counter-clockwise along their half-segments") {
   Stages s(octant_net());
   REQUIRE(s.resample(0.2));
-  Array<uint32_t> border(s.heap.context);
+  Border border(s.heap.context);
   for (uint32_t p = 0; p < s.network.patches(); ++p) {
     must(border_of_patch(s.network, s.vertices, p, &border));
     CHECK(border.size() == 24);
     Plane plane;
-    Array<Vec3> normal(s.heap.context);
-    must(normals_of_border(s.network, s.vertices, p, &normal));
-    must(fit_plane(s.vertices, border.span(), normal.span(), &plane));
+    must(fit_plane(border, &plane));
     check_frame(plane);
     double area = 0.0;
     for (size_t i = 0; i < border.size(); ++i) {
-      const Vec2 a = plane.project(s.vertices.position[border[i]]);
-      const Vec2 b = plane.project(s.vertices.position[border[(i + 1) % border.size()]]);
+      const Vec2 a = plane.project(border.position[i]);
+      const Vec2 b = plane.project(border.position[(i + 1) % border.size()]);
       area += 0.5 * cross(a, b);
     }
     CHECK(area > 0.5);
-    CHECK(std::set<uint32_t>(border.begin(), border.end()).size() == border.size());
+    CHECK(std::set<uint32_t>(border.vertex.begin(), border.vertex.end()).size() == border.size());
   }
 }

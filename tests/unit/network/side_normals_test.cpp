@@ -65,22 +65,20 @@ TEST_CASE("side normals: each side has its own, the vertices of the ridge the me
   }
 }
 
-TEST_CASE("side normals: a patch's border has those of its own side") {
+TEST_CASE("side normals: a patch's border has those of its own side, at the same places") {
   Ridge r;
-  Array<uint32_t> border(r.heap.context);
-  Array<Vec3> normal(r.heap.context);
+  Border border(r.heap.context);
   REQUIRE(r.network.patches() == 2);
   for (uint32_t p = 0; p < 2; ++p) {
     must(border_of_patch(r.network, r.vertices, p, &border));
-    must(normals_of_border(r.network, r.vertices, p, &normal));
-    REQUIRE(normal.size() == border.size());
+    REQUIRE(border.normal.size() == border.size());
     double side = 0.0;
-    for (uint32_t v : border) side += r.vertices.position[v].x;
+    for (const Vec3& at : border.position) side += at.x;
     for (size_t i = 0; i < border.size(); ++i) {
-      if (std::fabs(r.vertices.position[border[i]].y) < 0.5) CHECK(normal[i].x * side > 0.0);
+      if (std::fabs(border.position[i].y) < 0.5) CHECK(border.normal[i].x * side > 0.0);
     }
     Plane plane;
-    must(fit_plane(r.vertices, border.span(), normal.span(), &plane));
+    must(fit_plane(border, &plane));
     CHECK(plane.normal.x * side > 0.0);
   }
 }
@@ -88,10 +86,14 @@ TEST_CASE("side normals: a patch's border has those of its own side") {
 TEST_CASE("side normals: a smooth network has those of its vertices") {
   Stages s(octant_net());
   REQUIRE(s.resample(0.2));
-  Array<uint32_t> border(s.heap.context);
-  Array<Vec3> normal(s.heap.context);
-  must(border_of_patch(s.network, s.vertices, 3, &border));
-  must(normals_of_border(s.network, s.vertices, 3, &normal));
-  REQUIRE(normal.size() == border.size());
-  for (size_t i = 0; i < border.size(); ++i) CHECK(normal[i] == s.vertices.normal[border[i]]);
+  Border border(s.heap.context);
+  for (uint32_t p = 0; p < s.network.patches(); ++p) {
+    must(border_of_patch(s.network, s.vertices, p, &border));
+    REQUIRE(border.normal.size() == border.size());
+    for (uint32_t i = 0; i < border.size(); ++i) {
+      CHECK(border.normal[i] == s.vertices.normal[border.vertex[i]]);
+      CHECK(border.position[i] == s.vertices.position[border.vertex[i]]);
+      CHECK(next_on_border(border, 0, i) == (i + 1) % border.size());
+    }
+  }
 }

@@ -1,0 +1,22 @@
+// Raises a mesh inside closed loops so that it leaves them along their normals, curved as they are.
+//
+// In: the loops with unit normals, triangles over their vertices and inner points, all positions.
+// Out: inner positions whose Laplacian, in the metric of the mesh as given, fits -2 h n best in the
+// square, n being the normals of that mesh, among those whose derivative across the loops is the
+// unit conormal that points into the mesh (one, because the loops keep their lengths). h is one
+// number: the mean normal curvature of the loops where a single loop is closed like a sphere, half
+// of it where several are joined like the ends of a tube. Where a normal is not known the
+// derivative is free. Repeated, it tends to spheres and tubes. One factorisation. Source: A.
+// Jacobson, E. Tosun, O. Sorkine, D. Zorin, "Mixed Finite Elements for Variational Surface
+// Modeling", 2010 (curve boundary conditions).
+#pragma once
+
+#include "mesh/loop_mesh.h"
+
+namespace wireskin::mesh {
+
+// Fails with not_positive_definite (no place) where triangles are too thin for the system.
+Status raise_dome(Context& context, const Loops& loops, Span<const uint32_t> triangle,
+                  Span<Vec3> position);
+
+}  // namespace wireskin::mesh

@@ -1,0 +1,16 @@
+// Borders that no surface can have, sought where the plane of a patch fails: those that cross
+// themselves in space, and those that run clockwise round their own normals, as the outside of an
+// open surface does whose border is not tagged.
+//
+// In: the loops of a border with their normals (zero: unknown). Out: a status without place.
+// O(n^2), with cheap rejections.
+#pragma once
+
+#include "network/border.h"
+
+namespace wireskin::network {
+
+// Fails with patch_folded or patch_without_plane.
+Status check_border(const Border& border);
+
+}  // namespace wireskin::network

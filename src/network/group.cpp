@@ -1,0 +1,444 @@
+#include "network/group.h"
+
+#include "base/sort.h"
+#include "num/minmax.h"
+
+namespace wireskin::network {
+
+// Loops whose normals agree with their axis better than this bound a patch by themselves, if no
+// other loop needs them.
+static constexpr double k_clearly_closed = 0.5;
+// Conormals must lead to the other loop with at least this cosine in the mean.
+static constexpr double k_least_facing_cosine = 0.2;
+// And with this one where both loops are of one component, neither of them being closed alone.
+static constexpr double k_least_facing_in_component = 0.6;
+// Rule 2 looks at this many vertices of a loop at most.
+static constexpr uint32_t k_most_probes = 64;
+
+namespace {
+
+// What is being decided of each patch: `parent` as in union-find, reversed where the other side of
+// a ring was taken.
+struct Grouping {
+  const CurveVertices& vertices;
+  Network* network;
+  Components components;
+  Array<Enclosing> enclosing;  // of each component
+  Array<uint32_t> component;   // of each patch
+  Array<uint32_t> parent;      // of each patch
+  Array<uint8_t> reversed;     // of each patch
+  Array<uint32_t> holder;      // of each component that bounds nothing: its patch
+
+  Grouping(Context& context, const CurveVertices& of, Network* net)
+      : vertices(of),
+        network(net),
+        components(context),
+        enclosing(context),
+        component(context),
+        parent(context),
+        reversed(context),
+        holder(context) {}
+  uint32_t root(uint32_t p) {
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
+  }
+  void join(uint32_t a, uint32_t b) {
+    const uint32_t x = root(a), y = root(b);
+    (x < y ? parent[y] : parent[x]) = x < y ? x : y;
+  }
+};
+
+// A side of a loop that may face another one: a thinned list of its vertices.
+struct Facing {
+  uint32_t patch;
+  bool reversed;
+  uint32_t first, count;  // of the probes
+  bool needy;             // hard to close alone
+  double alone;           // what closing it costs
+  Vec3 centre;
+  double radius;
+};
+
+struct Probe {
+  Vec3 position, conormal;
+  double share;  // of the length of the loop
+};
+
+struct Band {
+  uint32_t a, b;
+  double area;
+};
+
+}  // namespace
+
+static Status take_components(Grouping* g) {
+  const Network& network = *g->network;
+  const uint32_t patches = network.patches();
+  TRY(find_components(network, g->vertices, &g->components));
+  TRY(g->component.resize(patches));
+  TRY(g->parent.resize(patches));
+  TRY(g->reversed.assign(patches, 0));
+  TRY(g->holder.assign(g->components.members.count(), k_none));
+  for (uint32_t p = 0; p < patches; ++p) {
+    g->parent[p] = p;
+    g->component[p] =
+        g->components.of_vertex[segment_vertex(network, g->vertices, network.cycle(p)[0] / 2, 0)];
+  }
+  return {};
+}
+
+// ---- Rule 1 -------------------------------------------------------------------------------------
+
+// Of each component the patches, ascending.
+static Status list_patches(const Grouping& g, Lists* lists) {
+  TRY(lists->start.assign(g.components.members.count() + size_t{1}, 0));
+  TRY(lists->item.resize(g.component.size()));
+  for (uint32_t c : g.component) ++lists->start[c];
+  starts_from_counts(lists->start.span());
+  for (uint32_t p = 0; p < g.component.size(); ++p) lists->item[lists->start[g.component[p]]++] = p;
+  for (size_t c = lists->start.size() - 1; c > 0; --c) lists->start[c] = lists->start[c - 1];
+  lists->start[0] = 0;
+  return {};
+}
+
+// The patch of an enclosed component whose border runs clockwise seen from the enclosing one's
+// normal, and faces the same way; of several the largest.
+static Status clockwise_patch(const Grouping& g, Span<const uint32_t> patches, const Vec3& normal,
+                              uint32_t* found) {
+  Border border(g.parent.context());
+  double greatest = 0.0;
+  *found = k_none;
+  for (uint32_t p : patches) {
+    TRY(border_of_patch(*g.network, g.vertices, p, &border));
+    const double area = dot(vector_area(border), normal) * (g.network->ring[p] ? 1.0 : -1.0);
+    if (dot(mean_normal(border), normal) < 0.0 || !(area > greatest)) continue;
+    greatest = area;
+    *found = p;
+  }
+  return {};
+}
+
+static Status join_enclosed(Grouping* g) {
+  const uint32_t count = g->components.members.count();
+  Context& context = g->parent.context();
+  Array<uint32_t> order(context);
+  Lists patches(context);
+  TRY(list_patches(*g, &patches));
+  for (uint32_t c = 0; c < count; ++c) {
+    if (g->enclosing[c].patch != k_none) TRY(order.push(c));
+  }
+  // The outermost first: the inside of a hole encloses nothing.
+  const auto score = [&](uint32_t c) { return g->enclosing[c].score; };
+  sort(order.span(),
+       [&](uint32_t a, uint32_t b) { return score(a) != score(b) ? score(a) > score(b) : a < b; });
+  for (uint32_t c : order) {
+    const Enclosing& outer = g->enclosing[c];
+    if (g->reversed[outer.patch]) continue;
+    if (!g->components.bounds[c]) {
+      g->holder[c] = outer.patch;
+      continue;
+    }
+    uint32_t inner = k_none;
+    TRY(clockwise_patch(*g, patches[c], outer.normal, &inner));
+    if (inner == k_none) continue;
+    g->reversed[inner] = g->network->ring[inner];
+    g->join(outer.patch, inner);
+  }
+  return {};
+}
+
+// ---- Rule 2 -------------------------------------------------------------------------------------
+
+// The cosine between normals and axis in the mean over a loop, and the area that it encloses.
+static double closing_cosine(const Border& border, double* area) {
+  const Vec3 axis = vector_area(border);
+  *area = 0.5 * length(axis);
+  return dot(mean_normal(border), unit(axis));
+}
+
+static Status add_facing(const Border& border, uint32_t patch, bool reversed, double cosine,
+                         double area, Array<Facing>* facing, Array<Probe>* probes) {
+  const uint32_t n = border.size();
+  const uint32_t count = n < k_most_probes ? n : k_most_probes;
+  const double least = larger(1.0 + cosine, 1e-3);
+  Facing f = {patch,
+              reversed,
+              static_cast<uint32_t>(probes->size()),
+              count,
+              cosine < k_clearly_closed,
+              8.0 * area / (least * least * least),
+              Vec3{},
+              0.0};
+  const double total = border_length(border);
+  for (uint32_t k = 0; k < count; ++k) {
+    const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
+    const Vec3& p = border.position[i];
+    const Vec3& next = border.position[i + 1 < n ? i + 1 : 0];
+    const Vec3& before = border.position[i > 0 ? i - 1 : n - 1];
+    const Vec3 conormal = unit(cross(border.normal[i], next - before));
+    TRY(probes->push({p, reversed ? -conormal : conormal, total / count}));
+    f.centre += (1.0 / count) * p;
+  }
+  for (uint32_t k = 0; k < count; ++k) {
+    f.radius = larger(f.radius, length((*probes)[f.first + k].position - f.centre));
+  }
+  return facing->push(f);
+}
+
+static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing>* facing,
+                          Array<Probe>* probes) {
+  const Network& network = *g->network;
+  Border border(g->parent.context());
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    if (g->root(p) != p || g->reversed[p] ||
+        network.patch_start[p + 1] != network.patch_start[p] + 1)
+      continue;
+    TRY(border_of_patch(network, g->vertices, p, &border));
+    double area = 0.0;
+    const double cosine = closing_cosine(border, &area);
+    TRY(add_facing(border, p, false, cosine, area, facing, probes));
+    if (network.ring[p] && !decided[p]) {
+      // A ring alone takes the cheaper side.
+      TRY(add_facing(border, p, true, -cosine, area, facing, probes));
+      Facing *one = &(*facing)[facing->size() - 2], *other = &facing->back();
+      one->alone = other->alone = smaller(one->alone, other->alone);
+    }
+    TRY(border.vertex.context().checkpoint());
+  }
+  return {};
+}
+
+// The area of a band from a's probes to the nearest ones of b, more where its conormals lead
+// elsewhere; negative where they do not lead there.
+static double half_band(const Facing& a, const Facing& b, Span<const Probe> probes,
+                        double least_cosine) {
+  double area = 0.0, cosine = 0.0;
+  for (const Probe& p : probes.part(a.first, a.count)) {
+    Vec3 nearest;
+    double least = DBL_MAX;
+    for (const Probe& q : probes.part(b.first, b.count)) {
+      const Vec3 way = q.position - p.position;
+      if (dot(way, way) < least) {
+        least = dot(way, way);
+        nearest = way;
+      }
+    }
+    if (least == 0.0) return -1.0;  // loops that touch
+    area += 0.5 * p.share * std::sqrt(least);
+    cosine += dot(p.conormal, unit(nearest)) / static_cast<double>(a.count);
+  }
+  return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
+}
+
+static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<const Probe> probes,
+                         Array<Band>* bands) {
+  constexpr double k_far = 8.0;
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    const Facing& a = facing[i];
+    for (uint32_t j = 0; a.needy && j < facing.size(); ++j) {
+      const Facing& b = facing[j];
+      const bool same = g.component[a.patch] == g.component[b.patch];
+      if ((same && !b.needy) || a.patch == b.patch || (b.needy && j < i)) continue;
+      const double least = same ? k_least_facing_in_component : k_least_facing_cosine;
+      if (length(a.centre - b.centre) > k_far * (a.radius + b.radius)) continue;
+      const double from_a = half_band(a, b, probes, least);
+      if (from_a < 0.0) continue;
+      const double from_b = half_band(b, a, probes, least);
+      if (from_b < 0.0) continue;
+      TRY(bands->push({i, j, from_a + from_b}));
+    }
+    TRY(bands->context().checkpoint());
+  }
+  sort(bands->span(), [](const Band& x, const Band& y) {
+    if (x.area != y.area) return x.area < y.area;
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  return {};
+}
+
+// Whether two groups have loops of the same component: a patch that meets itself across a curve is
+// never what normals ask for where another loop was nearer.
+static bool share_component(Grouping* g, Span<const Facing> facing, uint32_t a, uint32_t b) {
+  for (const Facing& x : facing) {
+    if (g->root(x.patch) != g->root(a)) continue;
+    for (const Facing& y : facing) {
+      if (g->root(y.patch) == g->root(b) && g->component[x.patch] == g->component[y.patch]) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+static Status join_facing(Grouping* g) {
+  Context& context = g->parent.context();
+  Array<Facing> facing(context);
+  Array<Probe> probes(context);
+  Array<Band> bands(context);
+  Array<uint8_t> joined(context), decided(context);
+  TRY(decided.assign(g->parent.size(), 0));  // of rings: which side has the surface
+  for (uint32_t p = 0; p < decided.size(); ++p) {
+    if (g->root(p) != p) decided[p] = decided[g->root(p)] = 1;
+  }
+  TRY(list_facing(g, decided.span(), &facing, &probes));
+  TRY(list_bands(*g, facing.span(), probes.span(), &bands));
+  TRY(joined.assign(facing.size(), 0));
+  for (size_t i = 0; i < facing.size(); ++i) joined[i] = decided[facing[i].patch];
+  for (const Band& band : bands) {
+    const Facing &a = facing[band.a], &b = facing[band.b];
+    const double alone = (joined[band.a] ? 0.0 : a.alone) + (joined[band.b] ? 0.0 : b.alone);
+    const bool wrong_side = (decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
+                            (decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
+    if (!(band.area < alone) || wrong_side) continue;
+    const bool same = g->component[a.patch] == g->component[b.patch];
+    const bool both_alone = !joined[band.a] && !joined[band.b];
+    if (same ? !both_alone : share_component(g, facing.span(), a.patch, b.patch)) continue;
+    decided[a.patch] = decided[b.patch] = 1;
+    g->reversed[a.patch] = a.reversed;
+    g->reversed[b.patch] = b.reversed;
+    joined[band.a] = joined[band.b] = 1;
+    g->join(a.patch, b.patch);
+    TRY(context.checkpoint());
+  }
+  return {};
+}
+
+// ---- The result ---------------------------------------------------------------------------------
+
+// A ring on its own needs normals that tell inside from outside.
+static Status check_rings(Grouping* g) {
+  constexpr double k_no_cosine = 1e-6, k_clear_area = 1.0 / 60.0;
+  Border border(g->parent.context());
+  Array<uint32_t> members(g->parent.context());
+  TRY(members.assign(g->parent.size(), 0));
+  for (uint32_t p = 0; p < members.size(); ++p) ++members[g->root(p)];
+  for (uint32_t p = 0; p < members.size(); ++p) {
+    if (!g->network->ring[p] || members[g->root(p)] != 1) continue;
+    TRY(border_of_patch(*g->network, g->vertices, p, &border));
+    double area = 0.0;
+    bool known = false;
+    for (const Vec3& n : border.normal) known = known || n != Vec3{};
+    const double cosine = closing_cosine(border, &area), perimeter = border_length(border);
+    const bool clear = area > k_clear_area * perimeter * perimeter;
+    if (!known || !clear || std::fabs(cosine) > k_no_cosine) continue;
+    Place place;
+    place.curve = g->network->segment[g->network->cycle(p)[0] / 2].curve;
+    place.sample = 0;
+    return fail(Code::open_network,
+                "the normals do not tell on which side of this boundary curve the surface lies",
+                place);
+  }
+  return {};
+}
+
+static Status check_holders(const Grouping& g) {
+  const Network& network = *g.network;
+  for (uint32_t c = 0; c < g.holder.size(); ++c) {
+    if (g.components.bounds[c] || g.holder[c] != k_none) continue;
+    const uint32_t v = g.components.members[c][0];
+    Place place;
+    place.curve = g.vertices.curve[v];
+    for (const Segment& s : network.segment) {
+      const bool here = s.from != k_none && (g.components.of_vertex[s.from] == c);
+      if (here && s.curve < place.curve) place.curve = s.curve;
+    }
+    return fail(Code::open_network,
+                place.curve == k_none ? "the point lies inside no patch"
+                                      : "the curve bounds no patch and lies inside none",
+                place);
+  }
+  return {};
+}
+
+static Status append_loops(const Grouping& g, uint32_t p, Lists* loops) {
+  const Network& old = *g.network;
+  for (uint32_t l = old.patch_start[p]; l < old.patch_start[p + 1]; ++l) {
+    const Span<const uint32_t> half = old.loop[l];
+    for (size_t i = 0; i < half.size(); ++i) {
+      TRY(loops->item.push(g.reversed[p] ? opposite(half[half.size() - 1 - i]) : half[i]));
+    }
+    TRY(loops->close());
+  }
+  return {};
+}
+
+// What lies inside each patch: the segments of its own cycle, loose pieces and points. `held` lists
+// the components by holder, `piece` the list of loose segments of each component.
+static Status append_inside(const Grouping& g, uint32_t p, Span<const uint32_t> held,
+                            Span<const uint32_t> piece, Network* fresh) {
+  const Network& old = *g.network;
+  for (uint32_t s : old.inner[p]) TRY(fresh->inner.item.push(s));
+  for (uint32_t c : held) {
+    if (piece[c] == k_none) {
+      TRY(fresh->point.item.push(g.components.members[c][0]));
+      continue;
+    }
+    for (uint32_t s : old.loose[piece[c]]) TRY(fresh->inner.item.push(s));
+  }
+  return {};
+}
+
+// Sorted by holder; `start[p]` .. `start[p + 1]` are those of patch p.
+static Status list_held(const Grouping& g, Lists* held) {
+  TRY(held->start.assign(g.parent.size() + 1, 0));
+  for (uint32_t p : g.holder) {
+    if (p != k_none) ++held->start[p];
+  }
+  TRY(held->item.resize(starts_from_counts(held->start.span())));
+  for (uint32_t c = 0; c < g.holder.size(); ++c) {
+    if (g.holder[c] != k_none) held->item[held->start[g.holder[c]]++] = c;
+  }
+  for (size_t p = held->start.size() - 1; p > 0; --p) held->start[p] = held->start[p - 1];
+  held->start[0] = 0;
+  return {};
+}
+
+// Writes the groups as the network's patches, in the order of the least patch of each.
+static Status rebuild(Grouping* g) {
+  Network& old = *g->network;
+  Context& context = old.segment.context();
+  Network fresh(context);
+  Lists held(context);
+  Array<uint32_t> order(context), piece(context);
+  TRY(list_held(*g, &held));
+  TRY(piece.assign(g->holder.size(), k_none));
+  for (uint32_t i = 0; i < old.loose.count(); ++i) {
+    piece[g->components.of_vertex[old.segment[old.loose[i][0]].from]] = i;
+  }
+  TRY(order.resize(old.patches()));
+  for (uint32_t p = 0; p < order.size(); ++p) order[p] = p;
+  sort(order.span(), [&](uint32_t a, uint32_t b) {
+    const uint32_t x = g->root(a), y = g->root(b);
+    return x != y ? x < y : a < b;
+  });
+  TRY(fresh.patch_start.push(0));
+  for (size_t first = 0, end = 0; first < order.size(); first = end) {
+    while (end < order.size() && g->root(order[end]) == g->root(order[first])) {
+      const uint32_t p = order[end++];
+      TRY(append_loops(*g, p, &fresh.loop));
+      TRY(append_inside(*g, p, held[p], piece.span(), &fresh));
+    }
+    TRY(fresh.patch_start.push(fresh.loop.count()));
+    TRY(fresh.ring.push(end - first == 1 ? old.ring[order[first]] : uint8_t{0}));
+    TRY(fresh.inner.close());
+    TRY(fresh.point.close());
+    TRY(context.checkpoint());
+  }
+  fresh.segment = static_cast<Array<Segment>&&>(old.segment);
+  old = static_cast<Network&&>(fresh);
+  return {};
+}
+
+Status group_patches(const CurveVertices& vertices, Network* network) {
+  Context& context = network->segment.context();
+  Grouping g(context, vertices, network);
+  TRY(take_components(&g));
+  TRY(find_enclosing(*network, vertices, g.components, &g.enclosing));
+  TRY(join_enclosed(&g));
+  TRY(join_facing(&g));
+  TRY(check_rings(&g));
+  TRY(check_holders(g));
+  return rebuild(&g);
+}
+
+}  // namespace wireskin::network

@@ -1,0 +1,16 @@
+// A network without some of its patches, for callers who want the others all the same.
+//
+// In: nodes, network, and of each patch whether it could be made. Out: both without the patches
+// that could not, without the segments and nodes that bounded or held nothing else; a segment with
+// a patch left on one side only is boundary. O(segments).
+#pragma once
+
+#include "network/network.h"
+
+namespace wireskin::network {
+
+// `original`: of each patch that is left, its number before.
+Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
+                    Array<uint32_t>* original);
+
+}  // namespace wireskin::network

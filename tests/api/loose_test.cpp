@@ -1,0 +1,234 @@
+// Patches of several loops, loose curves and points, and patches that cannot be made, through the C
+// API.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "wireskin.h"
+
+namespace {
+
+constexpr double k_turn = 6.283185307179586;
+
+struct Line {
+  std::vector<double> position, normal;
+  std::vector<uint32_t> node;
+  bool closed = false, boundary = false;
+};
+
+struct Net {
+  std::vector<Line> lines;
+
+  void circle(double x, double y, double z, double radius, bool boundary, bool outward = false) {
+    Line line;
+    line.closed = true;
+    line.boundary = boundary;
+    for (int k = 0; k < 48; ++k) {
+      const double c = std::cos(k_turn * k / 48), s = std::sin(k_turn * k / 48);
+      line.position.insert(line.position.end(), {x + radius * c, y + radius * s, z});
+      line.normal.insert(line.normal.end(),
+                         {outward ? c : 0, outward ? s : 0, outward ? 0.0 : 1.0});
+      line.node.push_back(WSK_NONE);
+    }
+    lines.push_back(line);
+  }
+  // From a to b, flat but for a bump, normals up.
+  void bump(double ax, double bx, double height) {
+    Line line;
+    for (int k = 0; k <= 20; ++k) {
+      const double t = k / 20.0, x = ax + t * (bx - ax);
+      line.position.insert(line.position.end(), {x, 0.3, height * std::sin(k_turn * t / 2)});
+      line.normal.insert(line.normal.end(), {0, 0, 1});
+      line.node.push_back(WSK_NONE);
+    }
+    lines.push_back(line);
+  }
+  void point(double x, double y, double z, bool with_normal) {
+    Line line;
+    line.position = {x, y, z};
+    if (with_normal) line.normal = {0, 0, 1};
+    line.node = {WSK_NONE};
+    lines.push_back(line);
+  }
+};
+
+struct Built {
+  wsk_report report;
+  wsk_surface* surface = nullptr;
+  wsk_surface_view view;
+  wsk_status status;
+
+  explicit Built(const Net& net, bool partial = false, wsk_method method = WSK_METHOD_FAIR) {
+    std::vector<wsk_curve> curves;
+    for (const Line& line : net.lines) {
+      wsk_curve c;
+      std::memset(&c, 0, sizeof c);
+      c.sample_count = line.node.size();
+      c.positions = line.position.data();
+      c.normals = line.normal.empty() ? nullptr : line.normal.data();
+      c.nodes = line.node.data();
+      c.closed = line.closed;
+      c.boundary = line.boundary;
+      curves.push_back(c);
+    }
+    wsk_options options;
+    wsk_options_init(&options, sizeof options);
+    options.partial = partial;
+    options.method = method;
+    options.spacing = 0.25;
+    wsk_report_init(&report, sizeof report);
+    status = wsk_build(curves.data(), curves.size(), &options, &surface, &report);
+    wsk_surface_get_view(surface, &view, sizeof view);
+    CAPTURE(std::string(report.sentence));
+    CHECK(status == report.status);
+  }
+  Built(const Built&) = delete;
+  ~Built() { wsk_surface_free(surface); }
+
+  // Whether a vertex of this curve lies there.
+  bool passes(double x, double y, double z, uint32_t curve) const {
+    for (uint32_t v = 0; v < view.vertex_count; ++v) {
+      const double* p = &view.positions[3 * v];
+      const bool here = p[0] == x && p[1] == y && p[2] == z;
+      if (here && view.vertex_curve[v] == curve) return true;
+    }
+    return false;
+  }
+  double greatest_height() const {
+    double greatest = 0.0;
+    for (uint32_t v = 0; v < view.vertex_count; ++v) {
+      greatest = std::fmax(greatest, std::fabs(view.positions[3 * v + 2]));
+    }
+    return greatest;
+  }
+};
+
+Net disc() {
+  Net net;
+  net.circle(0, 0, 0, 4, true);
+  return net;
+}
+
+}  // namespace
+
+TEST_CASE("loose: a point holds the surface, with a normal or without") {
+  for (bool with_normal : {true, false}) {
+    Net net = disc();
+    net.point(1, 0.5, 0.5, with_normal);
+    for (wsk_method method : {WSK_METHOD_STANKO, WSK_METHOD_ITERATED, WSK_METHOD_FAIR}) {
+      const Built b(net, false, method);
+      REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+      CHECK(b.report.euler_characteristic == 1);
+      CHECK(b.passes(1, 0.5, 0.5, 1));
+      CHECK(b.greatest_height() > 0.49);
+      CHECK(b.greatest_height() < 0.8);
+    }
+  }
+}
+
+TEST_CASE("loose: a dangling curve inside a patch holds it") {
+  Net net = disc();
+  net.bump(-1.5, 1.5, 0.4);
+  const Built b(net);
+  REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+  CHECK(b.report.euler_characteristic == 1);
+  CHECK(b.report.patches == 1);
+  CHECK(b.report.constraint_distance_max < 1e-2);
+  CHECK(b.greatest_height() == doctest::Approx(0.4).epsilon(0.15));
+}
+
+TEST_CASE("loose: what lies in no patch is named") {
+  Net net = disc();
+  net.point(0, 0, 0, true);
+  net.point(9, 0, 0, true);
+  const Built p(net);
+  CHECK(p.status == WSK_ERROR_OPEN_NETWORK);
+  CHECK(p.report.curve == 2);
+  Net beside = disc();
+  beside.bump(6, 8, 0);
+  const Built c(beside);
+  CHECK(c.status == WSK_ERROR_OPEN_NETWORK);
+  CHECK(c.report.curve == 1);
+}
+
+TEST_CASE("loops: a hole, an inner curve, a band, a great circle") {
+  Net hole = disc();
+  hole.circle(1, 0.5, 0, 1, true);
+  const Built h(hole);
+  REQUIRE(h.status == WSK_OK);
+  CHECK(h.report.euler_characteristic == 0);
+  CHECK(h.report.boundary_loops == 2);
+  CHECK(h.greatest_height() < 1e-9);
+
+  Net inner = disc();
+  inner.circle(1, 0.5, 0, 1, false);
+  const Built i(inner);
+  REQUIRE(i.status == WSK_OK);
+  CHECK(i.report.patches == 2);
+  CHECK(i.report.euler_characteristic == 1);
+
+  Net band;
+  band.circle(0, 0, 0, 1, true, true);
+  band.circle(0, 0, 1.5, 1, true, true);
+  const Built t(band);
+  REQUIRE(t.status == WSK_OK);
+  CHECK(t.report.euler_characteristic == 0);
+  CHECK(t.view.patch_way[0] == WSK_PATCH_MINIMAL_AREA);
+  double worst = 0.0;
+  for (uint32_t v = 0; v < t.view.vertex_count; ++v) {
+    const double* p = &t.view.positions[3 * v];
+    worst = std::fmax(worst, std::fabs(std::hypot(p[0], p[1]) - 1.0));
+  }
+  CHECK(worst < 2e-3);
+
+  Net sphere;
+  sphere.circle(0, 0, 0, 1, false, true);
+  const Built s(sphere);
+  REQUIRE(s.status == WSK_OK);
+  CHECK(s.report.patches == 2);
+  CHECK(s.report.euler_characteristic == 2);
+  CHECK(s.report.guarded_patches == 0);
+  for (uint32_t v = 0; v < s.view.vertex_count; ++v) {
+    const double* p = &s.view.positions[3 * v];
+    worst = std::fmax(worst, std::fabs(std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1.0));
+  }
+  CHECK(worst < 1e-2);
+}
+
+TEST_CASE("partial: patches that fail are left out and listed") {
+  Net net = disc();
+  Line eight;  // crosses itself
+  eight.closed = eight.boundary = true;
+  for (int k = 0; k < 60; ++k) {
+    const double a = k_turn * (k + 0.6) / 60;
+    eight.position.insert(eight.position.end(),
+                          {20 + std::sin(2 * a), 0.6 * std::sin(a) + 1e-3, 0});
+    eight.normal.insert(eight.normal.end(), {0, 0, 1});
+    eight.node.push_back(WSK_NONE);
+  }
+  net.lines.insert(net.lines.begin(), eight);
+  const Built strict(net);
+  CHECK(strict.status == WSK_ERROR_PATCH_FOLDED);
+  CHECK(strict.report.curve == 0);
+  CHECK(strict.report.patch == 0);
+  const Built b(net, true);
+  REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+  CHECK(b.report.patches == 2);
+  CHECK(b.report.failed_patches == 1);
+  REQUIRE(b.view.patch_count == 2);
+  CHECK(b.view.patch_status[0] == WSK_ERROR_PATCH_FOLDED);
+  CHECK(b.view.patch_status[1] == WSK_OK);
+  CHECK(std::string(b.view.patch_sentence[0]).size() > 10);
+  CHECK(std::string(b.view.patch_sentence[1]).empty());
+  CHECK(b.view.patch_curve_start[1] == 1);
+  CHECK(b.view.patch_curves[0] == 0);
+  CHECK(b.view.patch_curves[1] == 1);
+  for (uint32_t t = 0; t < b.view.triangle_count; ++t) CHECK(b.view.triangle_patch[t] == 1);
+  for (uint32_t v = 0; v < b.view.vertex_count; ++v) CHECK(b.view.positions[3 * v] < 5.0);
+  Net all;
+  all.lines.push_back(eight);
+  CHECK(Built(all, true).status == WSK_ERROR_PATCH_FOLDED);
+}

@@ -1,0 +1,112 @@
+// Networks cut by planes from measured meshes: every one must be surfaced with the Euler
+// characteristic of its mesh; the distances to it are reported in a table. The files are found in
+// the folder that WIRESKIN_TEST_DATA names.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <string>
+
+#include "accuracy/real.h"
+
+using namespace accuracy;
+using namespace networks;
+
+namespace {
+
+// Planes at these fractions of the bounding box along x, y and z.
+struct Cuts {
+  const char* file;
+  std::vector<double> x, y, z;
+};
+
+const std::vector<double> k_three = {0.2517, 0.4931, 0.7483}, k_four = {0.19, 0.41, 0.61, 0.83};
+const std::vector<double> k_two = {0.3517, 0.6483}, k_five = {0.11, 0.29, 0.47, 0.67, 0.87};
+
+const Cuts k_cuts[] = {
+    {"common-meshes/spot.obj", k_three, k_three, k_three},
+    {"common-meshes/spot.obj", k_two, k_four, k_four},
+    {"libigl-meshes/bumpy-cube.obj", k_three, k_three, k_three},
+    {"libigl-meshes/bumpy-cube.obj", k_two, k_two, k_two},
+    {"libigl-meshes/3holes.off", k_four, k_four, k_two},
+    {"libigl-meshes/3holes.off", k_five, k_five, {0.47}},
+    {"libigl-meshes/fertility.off", k_five, k_five, k_five},
+    {"pmp-meshes/hemisphere.off", k_two, k_two, {}},
+    {"pmp-meshes/hemisphere.off", k_three, k_three, {0.513}},
+    {"stability-networks/shell.obj", k_two, k_two, {}},
+    {"stability-networks/half_sphere.obj", k_two, k_two, {}},
+    {"stability-networks/hill.obj", k_three, k_two, {}},
+    {"stability-networks/leaf.obj", k_three, k_two, {}},
+};
+
+std::vector<Plane> planes_of(const Mesh& mesh, const Cuts& cuts) {
+  std::vector<Plane> planes;
+  const std::vector<double>* fractions[] = {&cuts.x, &cuts.y, &cuts.z};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    double low = 1e300, high = -1e300;
+    for (const Point& p : mesh.positions) {
+      low = std::min(low, p[axis]);
+      high = std::max(high, p[axis]);
+    }
+    Point normal = {0.0, 0.0, 0.0};
+    normal[axis] = 1.0;
+    for (double f : *fractions[axis]) planes.push_back({normal, low + f * (high - low)});
+  }
+  return planes;
+}
+
+long euler_characteristic(const Mesh& mesh) {
+  std::set<uint32_t> vertices;
+  std::set<std::pair<uint32_t, uint32_t>> edges;
+  for (const auto& t : mesh.triangles) {
+    for (size_t i = 0; i < 3; ++i) {
+      vertices.insert(t[i]);
+      edges.insert(std::minmax(t[i], t[(i + 1) % 3]));
+    }
+  }
+  return static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) +
+         static_cast<long>(mesh.triangles.size());
+}
+
+Mesh read_mesh(const std::string& path) {
+  return path.substr(path.size() - 4) == ".off" ? read_off(path) : read_obj(path);
+}
+
+}  // namespace
+
+TEST_CASE("networks cut by planes are surfaced as the mesh they come from") {
+  size_t found = 0;
+  std::printf("%-36s %7s %7s %6s %9s %9s %9s\n", "mesh", "curves", "patches", "Euler", "in space",
+              "RMS/1000", "max/1000");
+  for (const Cuts& cuts : k_cuts) {
+    const std::string path = data_file(cuts.file);
+    if (path.empty()) continue;
+    ++found;
+    CAPTURE(std::string(cuts.file));
+    const Mesh mesh = read_mesh(path);
+    RealCase c;
+    c.network = cut(mesh, planes_of(mesh, cuts));
+    c.truth = std::make_shared<MeshDistance>(mesh);
+    const double size = c.truth->diagonal();
+    const Result result = build(c.network, WSK_METHOD_FAIR, size / 60.0);
+    CAPTURE(std::string(result.report.sentence));
+    CAPTURE(result.report.curve);
+    CAPTURE(result.report.patch);
+    CHECK(result.status == WSK_OK);
+    if (result.status != WSK_OK) {
+      std::printf("%-36s %7zu %s\n", cuts.file, c.network.curves.size(), result.report.sentence);
+      continue;
+    }
+    const RealError error = real_error(result, c);
+    std::printf("%-36s %7zu %7u %6d %9u %9.2f %9.1f\n", cuts.file, c.network.curves.size(),
+                result.report.patches, result.report.euler_characteristic,
+                result.report.minimal_area_patches, 1000.0 * error.rms / size,
+                1000.0 * error.max / size);
+    CHECK(result.report.euler_characteristic == euler_characteristic(mesh));
+    CHECK(error.inside_out.empty());
+    CHECK(error.rms < 0.03 * size);
+  }
+  if (found == 0) std::printf("skipped: WIRESKIN_TEST_DATA is not set\n");
+}
