@@ -156,7 +156,7 @@ static void run_slot(uint32_t slot, void* data) {
 // checkpoint is never far; `work`: multiplications for each row or column.
 static Status run_parts(Context& context, PanelParts parts, double work) {
   constexpr uint32_t k_least_chunk = 64;
-  constexpr double k_most_work = 5e7;
+  constexpr double k_most_work = 5e7, k_worth_dividing = 5e5;
   const uint32_t slots = parts.tools->slots;
   const uint32_t end = parts.end;
   const uint32_t share = slots == 1 ? end - parts.first : (end - parts.first) / slots;
@@ -168,7 +168,12 @@ static Status run_parts(Context& context, PanelParts parts, double work) {
     const uint32_t chunks = (left + parts.chunk - 1) / parts.chunk;
     const uint32_t now = chunks < slots ? chunks : slots;
     parts.end = left <= now * parts.chunk ? end : parts.first + now * parts.chunk;
-    context.for_each(now, &run_slot, &parts);
+    // Waking a thread takes as long as some hundred thousand multiplications.
+    if (work * (parts.end - parts.first) < k_worth_dividing) {
+      for (uint32_t slot = 0; slot < now; ++slot) run_slot(slot, &parts);
+    } else {
+      context.for_each(now, &run_slot, &parts);
+    }
     TRY(context.checkpoint());
   }
   return {};
