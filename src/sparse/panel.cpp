@@ -17,7 +17,7 @@ struct ColumnBlock {
   DiagonalBlock diagonal[k_diagonal_blocks];
 };
 
-// What the threads share while they divide a part of the work. Each takes every slots-th chunk.
+// What the threads share while they divide a part of the work: a chunk each.
 struct PanelParts {
   const PanelTools* tools;
   const Panel* panel;
@@ -148,20 +148,35 @@ uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
 static void run_slot(uint32_t slot, void* data) {
   const PanelParts& parts = *static_cast<const PanelParts*>(data);
   double* scratch = parts.tools->scratch + slot * k_update_scratch;
-  const uint32_t stride = parts.tools->slots * parts.chunk;
-  for (uint32_t at = parts.first + slot * parts.chunk; at < parts.end; at += stride) {
-    parts.part(parts, at, parts.end - at < parts.chunk ? parts.end : at + parts.chunk, scratch);
-  }
+  const uint32_t at = parts.first + slot * parts.chunk;
+  parts.part(parts, at, parts.end - at < parts.chunk ? parts.end : at + parts.chunk, scratch);
 }
 
-// Divides first .. end into chunks of fours, so that each thread gets some and none is tiny.
-static Status run_parts(Context& context, PanelParts parts) {
-  constexpr uint32_t k_least_chunk = 32;
-  const uint32_t share = (parts.end - parts.first) / (2 * parts.tools->slots);
-  parts.chunk = share < k_least_chunk ? k_least_chunk : round_up_rows(share);
-  const uint32_t chunks = (parts.end - parts.first + parts.chunk - 1) / parts.chunk;
-  context.for_each(chunks < parts.tools->slots ? chunks : parts.tools->slots, &run_slot, &parts);
-  return context.checkpoint();
+// Divides first .. end into chunks of fours, so that each thread gets some, none is tiny and a
+// checkpoint is never far; `work`: multiplications for each row or column.
+static Status run_parts(Context& context, PanelParts parts, double work) {
+  constexpr uint32_t k_least_chunk = 64;
+  constexpr double k_most_work = 5e7, k_worth_dividing = 5e5;
+  const uint32_t slots = parts.tools->slots;
+  const uint32_t end = parts.end;
+  const uint32_t share = slots == 1 ? end - parts.first : (end - parts.first) / slots;
+  const double most = k_most_work / work;
+  parts.chunk = round_up_rows(share < most ? share : static_cast<uint32_t>(most));
+  if (parts.chunk < k_least_chunk) parts.chunk = k_least_chunk;
+  for (; parts.first < end; parts.first = parts.end) {
+    const uint32_t left = end - parts.first;
+    const uint32_t chunks = (left + parts.chunk - 1) / parts.chunk;
+    const uint32_t now = chunks < slots ? chunks : slots;
+    parts.end = left <= now * parts.chunk ? end : parts.first + now * parts.chunk;
+    // Waking a thread takes as long as some hundred thousand multiplications.
+    if (work * (parts.end - parts.first) < k_worth_dividing) {
+      for (uint32_t slot = 0; slot < now; ++slot) run_slot(slot, &parts);
+    } else {
+      context.for_each(now, &run_slot, &parts);
+    }
+    TRY(context.checkpoint());
+  }
+  return {};
 }
 
 Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
@@ -173,16 +188,19 @@ Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Pa
     const uint32_t below = round_up_rows(first + block.count);
     update_columns(tools, panel, 0, first, block.count, first, below, tools.scratch);
     if (below < rows) {
-      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &update_rows}));
+      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &update_rows},
+                    double{k_panel_block} * (first + 1)));
     }
     *bad_column = factor_block(tools, panel, below, &block);
     if (*bad_column != k_none) return {};
     if (below < rows) {
-      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &solve_rows_below}));
+      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &solve_rows_below},
+                    0.5 * k_panel_block * k_panel_block));
     }
   }
   if (panel.tail() == 0) return {};
-  return run_parts(context, {&tools, &panel, nullptr, 0, panel.tail(), 0, &update_tail});
+  return run_parts(context, {&tools, &panel, nullptr, 0, panel.tail(), 0, &update_tail},
+                   double{1} * panel.tail() * panel.width);
 }
 
 }  // namespace wireskin::sparse
