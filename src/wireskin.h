@@ -787,7 +787,8 @@ WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
 
 /* A surface like that of wsk_build. With normals it is smoothed by wsk_options.method where it is a
  * manifold and all its borders are curves; else, and without normals, it is made of the remeshed
- * patches, in which curvatures are zero if it is no manifold. No two triangles cross. The surface
+ * patches, in which curvatures are zero if it is no manifold. No two triangles of it cross, for
+ * which samples of curves that all but touch may stay where the jitter moved them. The surface
  * lives on without the flow. One flow makes one surface at a time. */
 WSK_API wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
                                     const wsk_flow_options* flow_options, wsk_surface** surface,

@@ -7,6 +7,7 @@ namespace wireskin::flow {
 
 namespace {
 
+constexpr size_t k_most_pairs = 1000;
 constexpr uint8_t k_untouched = 0, k_full = 2;  // between them: refined, not relaxed
 
 struct Slice {
@@ -228,9 +229,25 @@ static bool hold_back(const FlowMesh& mesh, Span<const uint32_t> pairs, Span<uin
   return any;
 }
 
+// What still crosses then are triangles of the complex itself: curves that all but touch, so that
+// the jitter counts. At its moved points the complex is embedded, and so those take their places.
+static Status move_to_complex(Context& context, const Flow& flow, Array<uint32_t>* pairs,
+                              FlowMesh* mesh) {
+  constexpr int k_most_rounds = 4;
+  for (int round = 0; round < k_most_rounds && !pairs->empty(); ++round) {
+    for (const uint32_t t : *pairs) {
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t v = mesh->triangle[3 * size_t{t} + k];
+        if (mesh->sample[v] != k_none) mesh->position[v] = flow.complex.point[mesh->sample[v]];
+      }
+    }
+    TRY(find_crossings(context, mesh->position.span(), mesh->triangle.span(), k_most_pairs, pairs));
+  }
+  return {};
+}
+
 Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& reconstruction,
                     double spacing, FlowMesh* mesh) {
-  constexpr size_t k_most_pairs = 1000;
   const bool refine = spacing > 0.0;
   const uint32_t patches = reconstruction.patches.size();
   OwnTriangles own(context);
@@ -253,6 +270,7 @@ Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& re
                        &pairs));
     if (!hold_back(*mesh, pairs.span(), refined.effort.span(), again.span())) break;
   }
+  TRY(move_to_complex(context, flow, &pairs, mesh));
   mesh->crossings = static_cast<uint32_t>(pairs.size() / 2);
   mesh->held_back = 0;
   for (const uint8_t effort : refined.effort) mesh->held_back += refine && effort != k_full;

@@ -5,8 +5,10 @@
 // patches. Patches are cut at curves and wherever other than two triangles meet, refined by
 // mesh/loop_refine.h, and tested against each other exactly (crossings.h); patches that run into
 // each other take a smaller effort next time: no relaxation, at last no refinement, which is the
-// embedded complex itself. Without spacing all patches are left as they are. Every triangle
-// of the walls occurs once, ears and tails in their first patch. Near-linear in the result.
+// embedded complex itself; triangles of it that cross all the same, because curves all but touch,
+// get the complex's own, jittered points. Without spacing all patches are left as they are. Every
+// triangle of the walls occurs once, ears and tails in their first patch. Near-linear in the
+// result.
 #pragma once
 
 #include "flow/flow.h"

@@ -88,9 +88,6 @@ TEST_CASE("a picture has a white border, stripes, and both kinds of curves") {
   Square square;
   // Normals that spread out, so that the square shows stripes.
   square.normals = {-0.6, -0.6, 0.53, 0.6, -0.6, 0.53, 0.6, 0.6, 0.53, -0.6, 0.6, 0.53};
-  Network network;
-  network.curves.resize(2);
-  network.curves[1].boundary = true;
   const Image image = draw_picture(square.view(), 2);
   REQUIRE(image.width == 1600);
   REQUIRE(image.height >= 500);
@@ -117,8 +114,6 @@ TEST_CASE("a picture has a white border, stripes, and both kinds of curves") {
 }
 
 TEST_CASE("the picture does not depend on the size or the place of the surface") {
-  Network network;
-  network.curves.resize(2);
   Square square;
   const Image image = draw_picture(square.view(), 2);
   for (double& x : square.positions) x *= 0x1p-300;

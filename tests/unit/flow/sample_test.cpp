@@ -1,0 +1,105 @@
+// Arcs and samples: where polylines are split, equal first steps, steps near other arcs, Gabriel.
+#include "flow/sample.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "flow/networks.h"
+#include "flow/unseen.h"
+
+using namespace flow_tests;
+using namespace wireskin::flow;
+
+namespace {
+
+struct Sampled {
+  unit::Heap heap;
+  Arcs arcs{heap.context};
+  Samples samples{heap.context};
+
+  Sampled(const Net& net, double step) {
+    const NetArrays arrays(net);
+    unit::must(find_arcs(heap.context, arrays.view(), &arcs));
+    unit::must(sample_arcs(heap.context, arcs, step, &samples));
+  }
+  double step(uint32_t i) const {
+    return length(samples.position[samples.at[i + 1]] - samples.position[samples.at[i]]);
+  }
+};
+
+void check_gabriel(const Sampled& s) {
+  for (uint32_t a = 0; a + 1 < s.samples.start.size(); ++a) {
+    for (uint32_t i = s.samples.start[a]; i + 1 < s.samples.start[a + 1]; ++i) {
+      const uint32_t p = s.samples.at[i], q = s.samples.at[i + 1];
+      for (uint32_t r = 0; r < s.samples.position.size(); ++r) {
+        if (r == p || r == q) continue;
+        CHECK(dot(s.samples.position[p] - s.samples.position[r],
+                  s.samples.position[q] - s.samples.position[r]) >= -1e-15);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Polylines are split at junctions and corners, and nowhere else") {
+  Net net;
+  add_circle(net, {}, {1, 0, 0}, {0, 1, 0}, 32, {});
+  Sampled circle(net, 0.1);
+  CHECK(circle.arcs.size() == 1);
+  CHECK(circle.arcs.closed[0] == 1);
+  Sampled cube(lattice(1, 1, 1), 0.1);
+  CHECK(cube.arcs.size() == 12);
+  Net bent;
+  for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{2, 0.5, 0}, Vec3{2, 2, 0}}) bent.add(p);
+  bent.curve.push_back({0, 1, 2, 3});  // turns by 27 and by 63 degrees
+  Sampled corner(bent, 0.1);
+  CHECK(corner.arcs.size() == 2);
+}
+
+TEST_CASE("Nodes are samples, first steps at a node are equal, segments are Gabriel") {
+  for (const Net& net : {lattice(1, 1, 2), octahedron(), great_circles(), pyramid(5, 1.0)}) {
+    Sampled s(net, 0.1);
+    std::vector<double> first(s.samples.position.size(), 0.0);
+    for (uint32_t a = 0; a < s.arcs.size(); ++a) {
+      const uint32_t begin = s.samples.start[a], end = s.samples.start[a + 1] - 1;
+      const double steps[2] = {s.samples.along[begin + 1] - s.samples.along[begin],
+                               s.samples.along[end] - s.samples.along[end - 1]};
+      const uint32_t nodes[2] = {s.samples.at[begin], s.samples.at[end]};
+      for (int k = 0; k < 2; ++k) {
+        if (first[nodes[k]] == 0.0) first[nodes[k]] = steps[k];
+        CHECK(steps[k] == doctest::Approx(first[nodes[k]]).epsilon(1e-9));
+      }
+      for (uint32_t i = begin; i < end; ++i) CHECK(s.step(i) <= 0.1 * (1.0 + 1e-9));
+    }
+    check_gabriel(s);
+    CHECK(s.samples.too_short == 0);
+  }
+}
+
+TEST_CASE("Arcs near each other are sampled at half their distance") {
+  Net net;
+  for (int i = 0; i < 2; ++i) {
+    const uint32_t a = net.add({0, 0.04 * i, 0}), b = net.add({1, 0.04 * i, 0});
+    net.edge(a, b);
+  }
+  Sampled s(net, 0.1);
+  for (uint32_t a = 0; a < 2; ++a) {
+    for (uint32_t i = s.samples.start[a]; i + 1 < s.samples.start[a + 1]; ++i) {
+      CHECK(s.step(i) <= 0.02 * (1.0 + 1e-9));
+      CHECK(s.step(i) > 0.015);
+    }
+  }
+}
+
+TEST_CASE("A point close to a curve makes its segment split") {
+  Net net;
+  const uint32_t a = net.add({0, 0, 0}), b = net.add({1, 0, 0});
+  net.edge(a, b);
+  net.curve.push_back({net.add({0.52, 0.001, 0})});
+  Sampled s(net, 0.3);
+  CHECK(s.samples.splits > 0);
+  CHECK(s.arcs.point.size() == 1);
+  check_gabriel(s);
+}
