@@ -793,7 +793,8 @@ WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
 
 /* A surface like that of wsk_build. With normals it is smoothed by wsk_options.method where it is a
  * manifold and all its borders are curves; else, and without normals, it is made of the remeshed
- * patches, in which curvatures are zero if it is no manifold. No two triangles cross. The surface
+ * patches, in which curvatures are zero if it is no manifold. No two triangles of it cross, for
+ * which samples of curves that all but touch may stay where the jitter moved them. The surface
  * lives on without the flow. One flow makes one surface at a time. */
 WSK_API wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
                                     const wsk_flow_options* flow_options, wsk_surface** surface,
@@ -3130,8 +3131,10 @@ Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptio
 /* patches. Patches are cut at curves and wherever other than two triangles meet, refined by */
 /* mesh/loop_refine.h, and tested against each other exactly (crossings.h); patches that run into */
 /* each other take a smaller effort next time: no relaxation, at last no refinement, which is the */
-/* embedded complex itself. Without spacing all patches are left as they are. Every triangle */
-/* of the walls occurs once, ears and tails in their first patch. Near-linear in the result. */
+/* embedded complex itself; triangles of it that cross all the same, because curves all but touch, */
+/* get the complex's own, jittered points. Without spacing all patches are left as they are. Every */
+/* triangle of the walls occurs once, ears and tails in their first patch. Near-linear in the */
+/* result. */
 
 namespace wireskin::flow {
 
@@ -8303,7 +8306,7 @@ struct ColumnBlock {
   DiagonalBlock diagonal[k_diagonal_blocks];
 };
 
-/* What the threads share while they divide a part of the work. Each takes every slots-th chunk. */
+/* What the threads share while they divide a part of the work: a chunk each. */
 struct PanelParts {
   const PanelTools* tools;
   const Panel* panel;
@@ -8434,20 +8437,35 @@ uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
 static void run_slot(uint32_t slot, void* data) {
   const PanelParts& parts = *static_cast<const PanelParts*>(data);
   double* scratch = parts.tools->scratch + slot * k_update_scratch;
-  const uint32_t stride = parts.tools->slots * parts.chunk;
-  for (uint32_t at = parts.first + slot * parts.chunk; at < parts.end; at += stride) {
-    parts.part(parts, at, parts.end - at < parts.chunk ? parts.end : at + parts.chunk, scratch);
-  }
+  const uint32_t at = parts.first + slot * parts.chunk;
+  parts.part(parts, at, parts.end - at < parts.chunk ? parts.end : at + parts.chunk, scratch);
 }
 
-/* Divides first .. end into chunks of fours, so that each thread gets some and none is tiny. */
-static Status run_parts(Context& context, PanelParts parts) {
-  constexpr uint32_t k_least_chunk = 32;
-  const uint32_t share = (parts.end - parts.first) / (2 * parts.tools->slots);
-  parts.chunk = share < k_least_chunk ? k_least_chunk : round_up_rows(share);
-  const uint32_t chunks = (parts.end - parts.first + parts.chunk - 1) / parts.chunk;
-  context.for_each(chunks < parts.tools->slots ? chunks : parts.tools->slots, &run_slot, &parts);
-  return context.checkpoint();
+/* Divides first .. end into chunks of fours, so that each thread gets some, none is tiny and a */
+/* checkpoint is never far; `work`: multiplications for each row or column. */
+static Status run_parts(Context& context, PanelParts parts, double work) {
+  constexpr uint32_t k_least_chunk = 64;
+  constexpr double k_most_work = 5e7, k_worth_dividing = 5e5;
+  const uint32_t slots = parts.tools->slots;
+  const uint32_t end = parts.end;
+  const uint32_t share = slots == 1 ? end - parts.first : (end - parts.first) / slots;
+  const double most = k_most_work / work;
+  parts.chunk = round_up_rows(share < most ? share : static_cast<uint32_t>(most));
+  if (parts.chunk < k_least_chunk) parts.chunk = k_least_chunk;
+  for (; parts.first < end; parts.first = parts.end) {
+    const uint32_t left = end - parts.first;
+    const uint32_t chunks = (left + parts.chunk - 1) / parts.chunk;
+    const uint32_t now = chunks < slots ? chunks : slots;
+    parts.end = left <= now * parts.chunk ? end : parts.first + now * parts.chunk;
+    /* Waking a thread takes as long as some hundred thousand multiplications. */
+    if (work * (parts.end - parts.first) < k_worth_dividing) {
+      for (uint32_t slot = 0; slot < now; ++slot) run_slot(slot, &parts);
+    } else {
+      context.for_each(now, &run_slot, &parts);
+    }
+    TRY(context.checkpoint());
+  }
+  return {};
 }
 
 Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
@@ -8459,16 +8477,19 @@ Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Pa
     const uint32_t below = round_up_rows(first + block.count);
     update_columns(tools, panel, 0, first, block.count, first, below, tools.scratch);
     if (below < rows) {
-      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &update_rows}));
+      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &update_rows},
+                    double{k_panel_block} * (first + 1)));
     }
     *bad_column = factor_block(tools, panel, below, &block);
     if (*bad_column != k_none) return {};
     if (below < rows) {
-      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &solve_rows_below}));
+      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &solve_rows_below},
+                    0.5 * k_panel_block * k_panel_block));
     }
   }
   if (panel.tail() == 0) return {};
-  return run_parts(context, {&tools, &panel, nullptr, 0, panel.tail(), 0, &update_tail});
+  return run_parts(context, {&tools, &panel, nullptr, 0, panel.tail(), 0, &update_tail},
+                   double{1} * panel.tail() * panel.width);
 }
 
 }  /* namespace wireskin::sparse */
@@ -9198,8 +9219,8 @@ Status System::solve(Span<const Vec3> target, Span<const Vec3> anchor, Span<Vec3
     TRY(factor_.solve(solution_.span(), 3));
   }
   *residual = residual_of(work_.span());
-  constexpr double k_good = 1e-12;
-  if (!iterative_ && *residual > k_good) {  /* one step of iterative refinement */
+  const double good = unknowns_ <= 30000 ? 1e-12 : unknowns_ <= 300000 ? 1e-11 : 1e-10;
+  if (!iterative_ && *residual > good) {  /* one step of iterative refinement */
     TRY(factor_.solve(work_.span(), 3));
     for (size_t i = 0; i < work_.size(); ++i) solution_[i] += work_[i];
     *residual = residual_of(work_.span());
@@ -11670,6 +11691,7 @@ namespace wireskin::flow {
 
 namespace {
 
+constexpr size_t k_most_pairs = 1000;
 constexpr uint8_t k_untouched = 0, k_full = 2;  /* between them: refined, not relaxed */
 
 struct Slice {
@@ -11891,9 +11913,25 @@ static bool hold_back(const FlowMesh& mesh, Span<const uint32_t> pairs, Span<uin
   return any;
 }
 
+/* What still crosses then are triangles of the complex itself: curves that all but touch, so that */
+/* the jitter counts. At its moved points the complex is embedded, and so those take their places. */
+static Status move_to_complex(Context& context, const Flow& flow, Array<uint32_t>* pairs,
+                              FlowMesh* mesh) {
+  constexpr int k_most_rounds = 4;
+  for (int round = 0; round < k_most_rounds && !pairs->empty(); ++round) {
+    for (const uint32_t t : *pairs) {
+      for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t v = mesh->triangle[3 * size_t{t} + k];
+        if (mesh->sample[v] != k_none) mesh->position[v] = flow.complex.point[mesh->sample[v]];
+      }
+    }
+    TRY(find_crossings(context, mesh->position.span(), mesh->triangle.span(), k_most_pairs, pairs));
+  }
+  return {};
+}
+
 Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& reconstruction,
                     double spacing, FlowMesh* mesh) {
-  constexpr size_t k_most_pairs = 1000;
   const bool refine = spacing > 0.0;
   const uint32_t patches = reconstruction.patches.size();
   OwnTriangles own(context);
@@ -11916,6 +11954,7 @@ Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& re
                        &pairs));
     if (!hold_back(*mesh, pairs.span(), refined.effort.span(), again.span())) break;
   }
+  TRY(move_to_complex(context, flow, &pairs, mesh));
   mesh->crossings = static_cast<uint32_t>(pairs.size() / 2);
   mesh->held_back = 0;
   for (const uint8_t effort : refined.effort) mesh->held_back += refine && effort != k_full;

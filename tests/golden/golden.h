@@ -13,14 +13,14 @@ struct Golden {
 };
 
 inline constexpr Golden k_golden[] = {
-    {"octants", WSK_METHOD_STANKO, 0x4dd627dbb6777194u},
-    {"saddle", WSK_METHOD_STANKO, 0x88f8217504c0c314u},
-    {"band", WSK_METHOD_STANKO, 0xa2655a6f7acc3859u},
-    {"octants", WSK_METHOD_BIHARMONIC, 0x84cfcf068738117cu},
-    {"octants", WSK_METHOD_TRIHARMONIC, 0x3644d899adc2c920u},
-    {"octants", WSK_METHOD_CLAMPED, 0xc955dbd913d36d0eu},
-    {"octants", WSK_METHOD_ITERATED, 0xcd1530772c5b0006u},
-    {"noisy", WSK_METHOD_FAIR, 0xe99db8eb29254240u},
-    {"band", WSK_METHOD_FAIR, 0x743514c6f40d67e1u},
-    {"saddle", WSK_METHOD_FAIR, 0x63f5c9078edd2929u},
+    {"octants", WSK_METHOD_STANKO, 0xe236025f01c41158u},
+    {"saddle", WSK_METHOD_STANKO, 0x3634387a8f6565bcu},
+    {"band", WSK_METHOD_STANKO, 0x000497db08bb5d3cu},
+    {"octants", WSK_METHOD_BIHARMONIC, 0x551cd2adbf99ff0du},
+    {"octants", WSK_METHOD_TRIHARMONIC, 0x4a6640952ca6cff7u},
+    {"octants", WSK_METHOD_CLAMPED, 0x7246a404acf3e9e4u},
+    {"octants", WSK_METHOD_ITERATED, 0x1b3c8c998ab1cd7bu},
+    {"noisy", WSK_METHOD_FAIR, 0xf95f68112ac6f76au},
+    {"band", WSK_METHOD_FAIR, 0x86ba29475ec9871bu},
+    {"saddle", WSK_METHOD_FAIR, 0xe36f15b3dbd4916fu},
 };
