@@ -9,7 +9,7 @@ struct ExactVec3 {
   Expansion<2> x, y, z;
 };
 
-static ExactVec3 exact_vector(const Vec3& from, const Vec3& to) {
+static ExactVec3 exact_vector3(const Vec3& from, const Vec3& to) {
   return {exact_difference(to.x, from.x), exact_difference(to.y, from.y),
           exact_difference(to.z, from.z)};
 }
@@ -33,7 +33,7 @@ static Expansion<24> exact_lift(const ExactVec3& u) {
 }
 
 double orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return exact_triple(exact_vector(a, b), exact_vector(a, c), exact_vector(a, d)).leading();
+  return exact_triple(exact_vector3(a, b), exact_vector3(a, c), exact_vector3(a, d)).leading();
 }
 
 struct WideVec3 {
@@ -91,10 +91,10 @@ Filtered insphere_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 // Exact ties come from coordinates of few digits, whose differences are exact in one double: then
 // the expansions are far shorter than their room.
 double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p) {
-  const ExactVec3 ap = exact_vector(p, a);
-  const ExactVec3 bp = exact_vector(p, b);
-  const ExactVec3 cp = exact_vector(p, c);
-  const ExactVec3 dp = exact_vector(p, d);
+  const ExactVec3 ap = exact_vector3(p, a);
+  const ExactVec3 bp = exact_vector3(p, b);
+  const ExactVec3 cp = exact_vector3(p, c);
+  const ExactVec3 dp = exact_vector3(p, d);
   Expansion<k_insphere_parts + 2 * k_triple_parts> sum;
   add_product(exact_triple(bp, cp, dp), exact_lift(ap), &sum);
   add_product(exact_triple(ap, cp, dp), -exact_lift(bp), &sum);
