@@ -389,9 +389,10 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
     status[p] = static_cast<wsk_status>(surface.patches.status[p].code);
     block[ways + p] = surface.patches.way[p];
   }
-  view.patch_sentence = sentence;
-  view.patch_status = status;
-  view.patch_way = block + ways;
+  // A surface from curves alone has no such list.
+  view.patch_sentence = listed > 0 ? sentence : nullptr;
+  view.patch_status = listed > 0 ? status : nullptr;
+  view.patch_way = listed > 0 ? block + ways : nullptr;
   view.patch_curve_start = write_indices(block, patch_start, surface.patches.curve_start);
   view.patch_curves = write_indices(block, patch_curve, surface.patches.curve);
   *out = handle;

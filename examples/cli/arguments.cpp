@@ -39,11 +39,12 @@ INPUT is a network of curves, "-" for the standard input:
             curves. Samples whose coordinates are all equal are one point.
   .curves .curve .contour .curf
             polylines of CASSIE, of cycle discovery, of contours in planes, with tangents
-What a file is, is seen from its content where the extension cannot be true. Files of measured
-tangents (.rawnet) and of points without curves (.xyz) are recognised, but not surfaced yet.
+  .rawnet   what a shape sensor measures along curves, tangents instead of positions
+  .xyz      points without curves, rows as above
+What a file is, is seen from its content where the extension cannot be true.
 Curves meet where they share a vertex. A curve is closed if its last vertex repeats its first.
-Boundary curves are those where the surface ends. Normals point to the outer side; all curves but
-creases need them.
+Boundary curves are those where the surface ends. Normals point to the outer side; for curves
+without normals see --topology.
 
 OUTPUT is the surface; -o may be repeated:
   .obj   positions, normals, a group patch_K for each patch
