@@ -6,6 +6,7 @@
 #include "network/patch_mesh.h"
 #include "surface/finish.h"
 #include "surface/fit.h"
+#include "surface/verify.h"
 
 namespace wireskin {
 
@@ -149,6 +150,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(in_terms_of_nodes(
       count_topology(patches.vertices, surface->triangle.span(), &topology, counts), nodes.span()));
 
+  TRY(verify_surface(context, network, patches.start.span(), *surface));
+
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
                        patches.start.span(), patches.placed.span()};
@@ -160,6 +163,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   } else {
     TRY(smooth_surface(context, start, constraints, settings.method, surface));
   }
+  TRY(verify_surface(context, network, surface->position.span(), *surface));
   if (!original.empty()) {  // the smoothing counted those that are left
     for (uint32_t& p : surface->patch) p = original[p];
     counts->patches += counts->failed_patches;
@@ -233,9 +237,10 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
   TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
   TRY(check_cutoff(set.soft, diagonal(set.position), k_none));
   TRY(constrain_vertices(set, counts->spacing, &constraints));
-  return smooth_surface(
-      context, {shapes.span(), smooth::Metric::space, topology.on_border.span(), set.position},
-      constraints, settings.method, surface);
+  const Start start = {shapes.span(), smooth::Metric::space, topology.on_border.span(),
+                       set.position};
+  TRY(smooth_surface(context, start, constraints, settings.method, surface));
+  return verify_triangles(context, *surface);
 }
 
 }  // namespace wireskin

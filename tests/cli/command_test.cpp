@@ -246,6 +246,28 @@ TEST_CASE("a missing normal is filled in, a broken joint is snapped unless that 
   CHECK(r.err.find("; 2 ends of curves meet no other curve: --snap LENGTH") != std::string::npos);
 }
 
+TEST_CASE("curves without normals become a surface, and a report is written") {
+  const ScratchFolder folder("command");
+  std::string cube;
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) cube += (k == 0 ? "v " : " ") + std::to_string((i >> k) & 1);
+    cube += "\n";
+  }
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (((i >> k) & 1) != 0) continue;
+      cube += "l " + std::to_string(i + 1) + " " + std::to_string((i | (1 << k)) + 1) + "\n";
+    }
+  }
+  write_file(folder / "cube.obj", cube);
+  const Run r = run(folder, "cube.obj -o s.obj --report s.json --spacing 0.25");
+  CHECK(r.err == "");
+  REQUIRE(r.status == 0);
+  auto report = JsonReader(read_file(folder / "s.json")).values;
+  CHECK(report["patches"] == "6");
+  CHECK(report["euler_characteristic"] == "2");
+}
+
 TEST_CASE("faults of the network: the place in one line and in the report, no surface") {
   const ScratchFolder folder("command");
   const std::string net = sphere_net(4);
