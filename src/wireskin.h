@@ -199,15 +199,17 @@ enum {
   WSK_SMOOTHING_DEFAULT = 0,
   /* The samples are exact: curves interpolate them and nodes keep their bits. */
   WSK_SMOOTHING_NONE = 1,
-  /* One smoothing spline over the whole network, whose strength is found by generalised cross
-     validation, for positions and normals separately; nodes move with their curves. Samples without
-     noise stay as they are, bit for bit; so do all, where smoothing would change the size of a
-     curve by more than a fifth (a tiny part beside a large one). With sharp curves in the network
-     only positions are smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with
-     Spline Functions", 1979. */
+  /* One smoothing spline over each connected component of the network, whose strength is found by
+     generalised cross validation, for positions and normals separately; nodes move with their
+     curves. Samples without noise stay as they are, bit for bit; so does a component, where
+     smoothing would change the size of a curve by more than a fifth, and one of too few samples to
+     tell noise from shape (about eight). With sharp curves in the network only positions are
+     smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline Functions",
+     1979. */
   WSK_SMOOTHING_AUTO = 2,
-  /* The same with the noise of the positions stated in wsk_options.noise; 0 means NONE. Noise
-     that would change the size of a curve by more than a fifth is WSK_ERROR_BAD_ARGUMENT. */
+  /* The same over the whole network at once, with the noise of the positions stated in
+     wsk_options.noise; 0 means NONE. Noise that would change the size of a curve by more than a
+     fifth is WSK_ERROR_BAD_ARGUMENT. */
   WSK_SMOOTHING_GIVEN = 3,
   WSK_SMOOTHING_COUNT = 4
 };

@@ -64,8 +64,12 @@ static Status measure_gaps(const KeptSamples& samples, bool filtered, Array<doub
 
 Status Roughness::number_unknowns(const KeptSamples& samples) {
   uint32_t nodes = 0;
-  for (const uint32_t node : samples.node) {
-    if (node != k_none && node >= nodes) nodes = node + 1;
+  for (size_t c = 0; c < samples.closed.size(); ++c) {
+    const KeptCurve curve = kept_curve(samples, c);
+    for (uint32_t k = 0; k < curve.count; ++k) {
+      const uint32_t node = samples.node[sample_of(samples, curve, k)];
+      if (node != k_none && node >= nodes) nodes = node + 1;
+    }
   }
   Array<uint32_t> unknown_of_node(*context_);
   TRY(unknown_of_node.assign(nodes, k_none));
@@ -259,6 +263,27 @@ Status Roughness::smooth(double lambda, Residuals* residuals) {
   if (residuals == nullptr) return {};
   measure_residuals(residuals);
   return find_freedom(&residuals->freedom);
+}
+
+bool Roughness::changes_sizes(const KeptSamples& samples, double tolerated) const {
+  for (size_t c = 0; c < samples.closed.size(); ++c) {
+    const KeptCurve curve = kept_curve(samples, c);
+    if (curve.count == 0) continue;
+    const size_t first = size_t{unknown_[curve.first_kept]} * k_columns;
+    double was = 0.0, is = 0.0;  // greatest distance from the first sample
+    for (uint32_t k = 1; k < curve.count; ++k) {
+      const size_t at = size_t{unknown_[curve.first_kept + k]} * k_columns;
+      const double* v = value_.data();
+      const double* r = residual_.data();
+      const Vec3 before = {v[at] - v[first], v[at + 1] - v[first + 1], v[at + 2] - v[first + 2]};
+      const Vec3 moved = {r[at] - r[first], r[at + 1] - r[first + 1], r[at + 2] - r[first + 2]};
+      const double old_distance = length(before), new_distance = length(before - moved);
+      was = old_distance > was ? old_distance : was;
+      is = new_distance > is ? new_distance : is;
+    }
+    if (!(std::fabs(is - was) <= tolerated * was)) return true;
+  }
+  return false;
 }
 
 void Roughness::write_positions(const KeptSamples& samples) const {

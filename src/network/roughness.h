@@ -23,7 +23,7 @@ namespace wireskin::network {
 
 // The samples of all curves one after the other, and which of them are kept.
 struct KeptSamples {
-  Span<const uint32_t> start;       // curve c has the samples start[c] .. start[c + 1)
+  Span<const uint32_t> start;       // of each curve: its first sample
   Span<const uint32_t> kept_start;  // of which kept[kept_start[c] .. kept_start[c + 1]) are read,
   Span<const uint32_t> kept;        // counted from the curve's first sample, in order along it
   Span<const uint32_t> node;        // of each sample, k_none for ordinary ones
@@ -52,6 +52,8 @@ class Roughness {
 
   // After this the smoothed values are at hand. `residuals` may be null.
   Status smooth(double lambda, Residuals* residuals);
+  // Whether they change the extent of any curve by more than the part `tolerated` of it.
+  bool changes_sizes(const KeptSamples& samples, double tolerated) const;
   // Writes them to all copies of each sample.
   void write_positions(const KeptSamples& samples) const;
   void write_normals(const KeptSamples& samples) const;

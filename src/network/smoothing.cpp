@@ -1,5 +1,7 @@
 #include "network/smoothing.h"
 
+#include "network/kept_parts.h"
+
 namespace wireskin::network {
 
 // The weights tried: quarters of a decade from 1e-4 to 1e6.
@@ -123,10 +125,15 @@ static Status choose_weights(WeightSearch* search, const SmoothingOptions& optio
                          variance);
 }
 
+// Nothing is written where sizes change: the noise found is then shape, or drowned it.
 static Status apply_weights(WeightSearch* search, const KeptSamples& samples,
-                            const SmoothingReport& report) {
+                            const SmoothingReport& report, bool* keeps_sizes) {
+  constexpr double k_tolerated = 0.2;
+  *keeps_sizes = true;
   if (report.lambda_position > 0.0) {
     TRY(search->roughness.smooth(report.lambda_position, nullptr));
+    *keeps_sizes = !search->roughness.changes_sizes(samples, k_tolerated);
+    if (!*keeps_sizes) return {};
     search->roughness.write_positions(samples);
   }
   if (report.lambda_normal > 0.0) {
@@ -136,17 +143,18 @@ static Status apply_weights(WeightSearch* search, const KeptSamples& samples,
   return {};
 }
 
-Status smooth_samples(Context& context, const KeptSamples& samples, const SmoothingOptions& options,
-                      SmoothingReport* report) {
+// Smooths all the samples with one weight. `unknowns`: how many there are.
+static Status smooth_together(Context& context, const KeptSamples& samples,
+                              const SmoothingOptions& options, SmoothingReport* report,
+                              uint32_t* unknowns) {
   constexpr uint32_t k_least_rows = 8;  // fewer second differences are no statistics
   // From a noise of about .3 spacings on, the spacings are so noisy themselves that the curve looks
   // smooth at its samples, and cross validation finds next to nothing (measured on circles).
   constexpr double k_drowned = 0.25;
-  *report = {};
-  if (options.noise == Noise::none) return {};
   WeightSearch search(context);
   double variance = 0.0;
   TRY(search.roughness.build(samples, false));
+  *unknowns = search.roughness.unknowns();
   if (search.roughness.rows() < k_least_rows) return {};
   TRY(choose_weights(&search, options, k_positions, report, &variance));
   const double most = k_drowned * search.roughness.spacing();
@@ -156,7 +164,53 @@ Status smooth_samples(Context& context, const KeptSamples& samples, const Smooth
     TRY(search.roughness.build(samples, true));
     TRY(choose_weights(&search, options, k_filtered_positions, report, &variance));
   }
-  return apply_weights(&search, samples, *report);
+  bool keeps_sizes = false;
+  TRY(apply_weights(&search, samples, *report, &keeps_sizes));
+  if (keeps_sizes) return {};
+  if (options.noise == Noise::given) {
+    return fail(Code::bad_argument, "the noise stated is too large for the curves");
+  }
+  *report = {};
+  return {};
+}
+
+// Sums of squares, until all parts are in.
+static void add_part(const SmoothingReport& part, uint32_t unknowns, SmoothingReport* sum) {
+  sum->sigma_position += unknowns * part.sigma_position * part.sigma_position;
+  sum->sigma_normal += unknowns * part.sigma_normal * part.sigma_normal;
+  if (part.lambda_position > sum->lambda_position) sum->lambda_position = part.lambda_position;
+  if (part.lambda_normal > sum->lambda_normal) sum->lambda_normal = part.lambda_normal;
+  sum->filtered = sum->filtered || part.filtered;
+}
+
+// One weight for all would wipe a tiny part out beside a large one, and leave or invent noise where
+// curves were measured differently.
+static Status smooth_parts(Context& context, const KeptSamples& samples,
+                           const SmoothingOptions& options, SmoothingReport* report) {
+  KeptParts parts(context);
+  TRY(parts.split(samples));
+  double all = 0.0;
+  for (uint32_t p = 0; p < parts.count(); ++p) {
+    SmoothingReport own;
+    uint32_t unknowns = 0;
+    TRY(smooth_together(context, parts.part(p), options, &own, &unknowns));
+    add_part(own, unknowns, report);
+    all += unknowns;
+    if (p % 64 == 63) TRY(context.checkpoint());
+  }
+  if (!(all > 0.0)) return {};
+  report->sigma_position = std::sqrt(report->sigma_position / all);
+  report->sigma_normal = std::sqrt(report->sigma_normal / all);
+  return {};
+}
+
+Status smooth_samples(Context& context, const KeptSamples& samples, const SmoothingOptions& options,
+                      SmoothingReport* report) {
+  *report = {};
+  if (options.noise == Noise::none) return {};
+  if (options.noise == Noise::estimate) return smooth_parts(context, samples, options, report);
+  uint32_t unknowns = 0;
+  return smooth_together(context, samples, options, report, &unknowns);
 }
 
 }  // namespace wireskin::network

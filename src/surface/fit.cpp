@@ -57,27 +57,6 @@ static void unite_nodes(const CurveSet& set, Span<const uint32_t> node,
   }
 }
 
-// Whether smoothing changed the extent of any curve by more than a fifth. One strength serves the
-// whole network, so a tiny part beside a large one, or noise stated larger than the shape, would be
-// wiped out.
-static bool changes_sizes(const CurveSet& set, Span<const uint32_t> kept_start,
-                          Span<const uint32_t> kept, Span<const Vec3> before) {
-  constexpr double k_tolerated = 0.2;
-  for (uint32_t c = 0; c + 1 < kept_start.size(); ++c) {
-    const uint32_t first = set.start[c] + kept[kept_start[c]];
-    double was = 0.0, is = 0.0;  // greatest distance from the first sample
-    for (uint32_t k = kept_start[c]; k < kept_start[c + 1]; ++k) {
-      const uint32_t i = set.start[c] + kept[k];
-      const double old_distance = length(before[i] - before[first]);
-      const double new_distance = length(set.position[i] - set.position[first]);
-      was = old_distance > was ? old_distance : was;
-      is = new_distance > is ? new_distance : is;
-    }
-    if (!(std::fabs(is - was) <= k_tolerated * was)) return true;
-  }
-  return false;
-}
-
 // Thins all curves, takes the noise out of what is kept, and lets nodes move with their curves.
 static Status smooth_curves(Context& context, const CurveSet& set, Span<const uint32_t> node,
                             const network::SmoothingOptions& options, Span<network::Node> nodes,
@@ -98,9 +77,7 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
   if (options.noise == network::Noise::none) return {};
   // Where curves are sharp a node has no one normal, so normals stay as they are; the constant
   // field in their place has no noise.
-  Array<Vec3> constant(context), position(context), normal(context);
-  TRY(position.copy(set.position));
-  TRY(normal.copy(set.normal));
+  Array<Vec3> constant(context);
   const bool creased = !set.sharp.empty();
   if (creased) TRY(constant.assign(set.normal.size(), Vec3{0, 0, 1}));
   const Span<Vec3> normals = creased ? constant.span() : set.normal;
@@ -108,16 +85,6 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
       context,
       {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, normals},
       options, &counts->noise));
-  if (changes_sizes(set, kept_start->span(), kept->span(), position.span())) {
-    if (options.noise == network::Noise::given) {
-      return fail(Code::bad_argument, "the noise stated is too large for the curves");
-    }
-    for (size_t i = 0; i < position.size(); ++i) {
-      set.position[i] = position[i];
-      set.normal[i] = normal[i];
-    }
-    counts->noise = {};
-  }
   for (size_t i = 0; i < node.size(); ++i) {
     if (node[i] == k_none) continue;
     nodes[node[i]].position = set.position[i];

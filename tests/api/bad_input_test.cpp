@@ -186,6 +186,45 @@ TEST_CASE("normals that contradict each other") {
   CHECK((flipped_sample.report.sample == 3 || flipped_sample.report.sample == 2));
 }
 
+TEST_CASE("smoothing does not hide normals that contradict each other") {
+  // Round the node +x the normals of circle 0 are tilted towards its axis, until they oppose those
+  // of the other circle or their neighbours. All are noisy, so that there is something to smooth.
+  const double axis[3] = {0.0, 0.0, 1.0};
+  int contradictions = 0;
+  for (const int reach : {0, 1, 3}) {
+    for (int tenths = 0; tenths <= 20; ++tenths) {  // of a right angle
+      Scene scene = octants();
+      uint32_t random = 7;
+      for (Curve& curve : scene.curves) {
+        for (double& n : curve.normals) {
+          random = random * 1664525u + 1013904223u;
+          n += 0.05 * (static_cast<double>(random >> 8) / 8388608.0 - 1.0);
+        }
+      }
+      Curve& curve = scene.curves[0];
+      const double angle = 0.1 * tenths * std::acos(0.0);
+      for (int k = -reach; k <= reach; ++k) {
+        const int i = (k < 0 ? static_cast<int>(curve.size()) : 0) + k;
+        double* n = &curve.normals[3 * static_cast<size_t>(i)];
+        for (int d = 0; d < 3; ++d) n[d] = std::cos(angle) * n[d] + std::sin(angle) * axis[d];
+      }
+      wsk_options options = options_of(scene);
+      options.method = WSK_METHOD_FAIR;
+      options.spacing = 0.2;
+      options.smoothing = WSK_SMOOTHING_NONE;
+      const Call as_given = watched_scene(scene, options);
+      options.smoothing = WSK_SMOOTHING_AUTO;
+      const Call smoothed = watched_scene(scene, options);
+      CAPTURE(reach);
+      CAPTURE(tenths);
+      CHECK(smoothed.status == as_given.status);
+      CHECK(smoothed.report.sample == as_given.report.sample);
+      contradictions += as_given.status == WSK_ERROR_INCONSISTENT_NORMALS;
+    }
+  }
+  CHECK(contradictions >= 3);
+}
+
 TEST_CASE("a normal along a curve of its node") {
   const Call call = network_with([](Scene& scene) {
     // The node +x: circle 0 runs along y there, circle 2 along z.

@@ -476,21 +476,106 @@ TEST_CASE("only the kept samples are read and written") {
   CHECK(fewer.position[10] == Vec3{7, 7, 7});
 }
 
-TEST_CASE("two components share the weight but nothing else") {
-  Scene scene = circle(100);
-  for (uint32_t i = 0; i < 100; ++i) {
-    scene.add(on_axes(2, 2.0 * k_pi * i / 100) + Vec3{0, 0, 9}, on_axes(2, 2.0 * k_pi * i / 100));
+// A circle of n samples and the given radius, and how far it is from its truth.
+void add_circle(Scene* scene, uint32_t n, double radius, double noise, const Vec3& centre,
+                uint32_t seed) {
+  Normal random(seed);
+  for (uint32_t i = 0; i < n; ++i) {
+    const Vec3 p = on_axes(2, 2.0 * k_pi * i / n);
+    scene->add(centre + radius * p + random.vector(noise), p);
   }
-  scene.end(true);
-  scene.disturb(0.005, 0.02, 6);
-  const double before = off_cylinder(scene.position);
+  scene->end(true);
+}
+
+double off_circle(const Scene& scene, uint32_t curve, double radius, const Vec3& centre) {
+  double sum = 0.0;
+  for (uint32_t i = scene.start[curve]; i < scene.start[curve + 1]; ++i) {
+    const Vec3 p = scene.position[i] - centre;
+    sum += std::pow(std::hypot(p.x, p.y) - radius, 2) + p.z * p.z;
+  }
+  return std::sqrt(sum / (scene.start[curve + 1] - scene.start[curve]));
+}
+
+TEST_CASE("every component has a noise of its own") {
+  const Vec3 centre = {0, 0, 9};
+  struct Case {
+    const char* name;
+    double large_noise, small_radius, small_noise;
+  };
+  // The noise in the last is less than rounding can show beside the other's, and more than the
+  // whole of the tiny circle is in the first.
+  const Case cases[] = {{"quiet and tiny beside noisy", 0.01, 0.004, 0.0},
+                        {"noisy and tiny beside quiet", 0.0, 0.01, 0.0002},
+                        {"equally noisy", 0.005, 1.0, 0.005},
+                        {"both noisy, one tiny", 0.01, 1e-4, 2e-6}};
+  for (const Case& c : cases) {
+    CAPTURE(c.name);
+    Scene scene;
+    add_circle(&scene, 200, 1.0, c.large_noise, {}, 5);
+    add_circle(&scene, 60, c.small_radius, c.small_noise, centre, 6);
+    const double large = off_circle(scene, 0, 1.0, {});
+    const double small = off_circle(scene, 1, c.small_radius, centre);
+    const SmoothingReport report = smooth(&scene);
+    const double large_after = off_circle(scene, 0, 1.0, {});
+    const double small_after = off_circle(scene, 1, c.small_radius, centre);
+    std::printf("%s: sigma %.2e, large %.1e -> %.1e, small %.1e -> %.1e\n", c.name,
+                report.sigma_position, large, large_after, small, small_after);
+    const double mean =
+        std::sqrt((200 * c.large_noise * c.large_noise + 60 * c.small_noise * c.small_noise) / 260);
+    CHECK(std::fabs(report.sigma_position / mean - 1.0) < 0.25);
+    if (c.large_noise > 0.0) {
+      CHECK(large_after < 0.6 * large);
+    } else {
+      CHECK(large_after < 1e-6);
+    }
+    if (c.small_noise > 0.0) {
+      CHECK(small_after < 0.6 * small);
+    } else {
+      CHECK(small_after < 1e-6 * c.small_radius);
+    }
+  }
+}
+
+TEST_CASE("a component is smoothed as if it were alone") {
+  Scene alone = great_circles(40);
+  alone.disturb(0.01, 0.03, 6);
+  Scene scene;
+  const auto add_curve = [&scene](const Scene& from, uint32_t c, uint32_t first_node,
+                                  const Vec3& shift) {
+    for (uint32_t i = from.start[c]; i < from.start[c + 1]; ++i) {
+      const uint32_t node = from.node[i] == k_none ? k_none : from.node[i] + first_node;
+      scene.add(from.position[i] + shift, from.normal[i], node);
+    }
+    scene.end(true);
+  };
+  const Scene other = circle(30);
+  for (uint32_t c = 0; c < 3; ++c) {  // the curves of two components in turns
+    add_curve(alone, c, 7, {});
+    add_curve(other, 0, 0, {0, 0, 5.0 + c});
+  }
+  smooth(&alone);
+  smooth(&scene);
+  for (uint32_t c = 0; c < 3; ++c) {
+    for (uint32_t i = 0; i < 40; ++i) {
+      REQUIRE(scene.position[scene.start[2 * c] + i] == alone.position[alone.start[c] + i]);
+      REQUIRE(scene.normal[scene.start[2 * c] + i] == alone.normal[alone.start[c] + i]);
+    }
+  }
+}
+
+TEST_CASE("where a curve would change its size its component stays") {
+  Scene scene;
+  add_circle(&scene, 200, 1.0, 0.005, {}, 5);
+  add_circle(&scene, 24, 0.3, 0.25, {0, 0, 9}, 2);  // no circle any more
+  const Scene before = scene;
   const SmoothingReport report = smooth(&scene);
   CHECK(std::fabs(report.sigma_position / 0.005 - 1.0) < 0.15);
-  CHECK(off_cylinder(scene.position) < 0.5 * before);
-  for (size_t i = 0; i < 100; ++i) {
-    CHECK(std::fabs(scene.position[i].z) < 0.02);
-    CHECK(std::fabs(scene.position[i + 100].z - 9) < 0.02);
-  }
+  for (uint32_t i = 200; i < 224; ++i) CHECK(scene.position[i] == before.position[i]);
+  CHECK(scene.position[0] != before.position[0]);
+  Heap heap;
+  SmoothingReport stated;
+  CHECK(smooth_samples(heap.context, scene.samples(), {Noise::given, 0.5}, &stated).code ==
+        Code::bad_argument);
 }
 
 TEST_CASE("probes for many samples find what the exact trace does") {
@@ -533,7 +618,7 @@ TEST_CASE("thinning and fitting one after the other is adding a curve") {
 
 TEST_CASE("each allocation failed in turn") {
   Scene scene = great_circles(16);
-  scene.disturb(0.15, 0.1, 1);  // enough for the filtered repeat
+  scene.disturb(0.12, 0.1, 1);  // enough for the filtered repeat
   const std::vector<Vec3> position = scene.position, normal = scene.normal;
   size_t allocations = 0;
   bool done = false;
