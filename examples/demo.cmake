@@ -1,6 +1,6 @@
 # cmake -DCOMMAND=... -DDATA=... -DOUT=... -P demo.cmake
 # Surfaces every network in DATA (*.net, *.obj) with the wireskin command; leaves NAME.obj (surface),
-# NAME.png (picture) and NAME.json (report) in OUT.
+# NAME.png (picture), NAME.html (page) and NAME.json (report) in OUT.
 cmake_minimum_required(VERSION 3.25)
 foreach(name COMMAND DATA OUT)
   if(NOT DEFINED ${name})
@@ -24,7 +24,7 @@ foreach(network IN LISTS networks)
   endif()
   execute_process(
     COMMAND ${COMMAND} ${network} -o ${OUT}/${name}.obj --image ${OUT}/${name}.png
-            --report ${OUT}/${name}.json --up ${up}
+            --html ${OUT}/${name}.html --report ${OUT}/${name}.json --up ${up}
     RESULT_VARIABLE result)
   if(result EQUAL 0)
     file(READ ${OUT}/${name}.json report)
@@ -38,7 +38,7 @@ foreach(network IN LISTS networks)
   endif()
 endforeach()
 
-message(STATUS "Surfaces (.obj), pictures (.png) and reports (.json) are in ${OUT}")
+message(STATUS "Surfaces (.obj), pictures (.png), pages (.html) and reports (.json) are in ${OUT}")
 if(failed GREATER 0)
   message(FATAL_ERROR "${failed} networks could not be surfaced")
 endif()

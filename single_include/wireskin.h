@@ -478,11 +478,12 @@ typedef struct wsk_surface_view {
   const uint32_t* triangle_patch;   /* 1 a triangle */
   const uint32_t* curve_edges;      /* 2 an edge: the curves as resampled, in their direction */
   const uint32_t*
-      curve_edge_curve;           /* 1 an edge: the caller's curve; both null for a caller's mesh */
-  const uint8_t* patch_guarded;   /* 1 a patch: 1 where it was held back, see guarded_patches; null
-                                     for a caller's mesh and for methods that hold nothing back */
-  const uint8_t* patch_way;       /* 1 a patch: WSK_PATCH_... */
-  const wsk_status* patch_status; /* 1 a patch: WSK_OK, or why it was left out */
+      curve_edge_curve;         /* 1 an edge: the caller's curve; both null for a caller's mesh */
+  const uint8_t* patch_guarded; /* 1 a patch: 1 where it was held back, see guarded_patches; null
+                                   for a caller's mesh and for methods that hold nothing back */
+  /* The five that follow are null for a surface of wsk_flow_surface: see wsk_flow_view. */
+  const uint8_t* patch_way;          /* 1 a patch: WSK_PATCH_... */
+  const wsk_status* patch_status;    /* 1 a patch: WSK_OK, or why it was left out */
   const char* const* patch_sentence; /* 1 a patch: "", or what was wrong in words; static text */
   const uint32_t* patch_curve_start; /* patch_count + 1: patch p has the caller's curves */
   const uint32_t* patch_curves;      /* patch_curves[patch_curve_start[p]] and so on, ascending */
@@ -4244,7 +4245,8 @@ Status radix_sort(Context& context, Array<BitsKey>* keys);
 
 /* ======== begin src/num/expansion.h ======== */
 /* Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum, */
-/* difference, scaling and product, of a size fixed at compile time and wholly on the stack. */
+/* difference, scaling and product, of a size fixed at compile time and wholly on the stack. compact */
+/* writes a number in as few parts as its bits need, so that long sums of products fit small rooms. */
 /* */
 /* Invariants: the parts are non-zero, do not overlap and grow in magnitude, so the last one */
 /* carries the sign; no part at all is zero. Exact while no product over- or underflows (see */
@@ -4382,6 +4384,60 @@ Expansion<2 * M * N> operator*(const Expansion<M>& e, const Expansion<N>& f) {
     add_expansions(sums[i & 1], term, &sums[(i + 1) & 1]);
   }
   return sums[f.size & 1];
+}
+
+/* The same number in as few parts as its bits need. Downward, each part takes up what fits into it */
+/* of the next: parts are at least 52 bits apart then. Upward, neighbours that touch are parted, so */
+/* that sums and scalings take the result as they take any expansion. */
+template <int N>
+void compact(Expansion<N>* e) {
+  if (e->size < 2) return;
+  int bottom = e->size;
+  double high = e->part[e->size - 1];
+  for (int i = e->size - 2; i >= 0; --i) {
+    const TwoParts s = fast_two_sum(high, e->part[i]);
+    high = s.high;
+    if (s.low == 0.0) continue;
+    e->part[--bottom] = s.high;
+    high = s.low;
+  }
+  const int count = e->size;
+  e->size = 0;
+  for (int i = bottom; i < count; ++i) {
+    const TwoParts s = fast_two_sum(e->part[i], high);
+    e->push(s.low);
+    high = s.high;
+  }
+  e->push(high);
+}
+
+/* The most parts that compact leaves of a product of so many factors, a sum of a few such products */
+/* or less, where each factor is a multiple of one power of two and below another, 2^bits apart. */
+constexpr int compact_parts(int factors, int bits) {
+  return (factors * bits + 8) / 52 + 1;
+}
+
+/* The number in a smaller room; the caller knows that compact makes it fit. */
+template <int R, int N>
+Expansion<R> fitted(Expansion<N> e) {
+  if (e.size > R) compact(&e);
+  WIRESKIN_ASSERT(e.size <= R);
+  Expansion<R> result;
+  for (int i = 0; i < e.size; ++i) result.push(e.part[i]);
+  return result;
+}
+
+/* *sum += e * f. Room needed: what compact leaves of the greatest sum, and 2 M parts. */
+template <int M, int N, int R>
+void add_product(const Expansion<M>& e, const Expansion<N>& f, Expansion<R>* sum) {
+  Expansion<R> before;
+  for (int i = 0; i < f.size; ++i) {
+    const Expansion<2 * M> term = scale(e, f.part[i]);
+    if (sum->size + term.size > R) compact(sum);
+    before.size = 0;
+    for (int k = 0; k < sum->size; ++k) before.push(sum->part[k]);
+    add_expansions(before, term, sum);
+  }
 }
 
 }  /* namespace wireskin */
@@ -5928,6 +5984,27 @@ Status fit_curves(Context& context, const CurveSet& set, double size,
 
 }  /* namespace wireskin */
 /* ======== end src/surface/fit.h ======== */
+
+/* ======== begin src/surface/verify.h ======== */
+/* The check that every build ends with where assertions are compiled in: mesh/check.h with all that */
+/* the network promises of its surface. */
+/* */
+/* In: the network as it was meshed, the surface, and positions for its vertices: those that the */
+/* smoothing starts from, or its result. Out: ok, or no memory for the check; whatever else it finds */
+/* is a fault of ours and stops the program. Releases do nothing here. Folds are not looked for: no */
+/* surface avoids them where the curves themselves fold, and the guards of smooth/ report them. */
+/* O(vertices + triangles). */
+
+namespace wireskin {
+
+Status verify_surface(Context& context, const network::Network& network, Span<const Vec3> position,
+                      const Surface& surface);
+
+/* The same without a network, for a mesh of the caller's. */
+Status verify_triangles(Context& context, const Surface& surface);
+
+}  /* namespace wireskin */
+/* ======== end src/surface/verify.h ======== */
 
 /* ======== begin src/mesh/mesh.cpp ======== */
 namespace wireskin::mesh {
@@ -9542,6 +9619,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(in_terms_of_nodes(
       count_topology(patches.vertices, surface->triangle.span(), &topology, counts), nodes.span()));
 
+  TRY(verify_surface(context, network, patches.start.span(), *surface));
+
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
                        patches.start.span(), patches.placed.span()};
@@ -9553,6 +9632,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   } else {
     TRY(smooth_surface(context, start, constraints, settings.method, surface));
   }
+  TRY(verify_surface(context, network, surface->position.span(), *surface));
   if (!original.empty()) {  /* the smoothing counted those that are left */
     for (uint32_t& p : surface->patch) p = original[p];
     counts->patches += counts->failed_patches;
@@ -9626,9 +9706,10 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
   TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
   TRY(check_cutoff(set.soft, diagonal(set.position), k_none));
   TRY(constrain_vertices(set, counts->spacing, &constraints));
-  return smooth_surface(
-      context, {shapes.span(), smooth::Metric::space, topology.on_border.span(), set.position},
-      constraints, settings.method, surface);
+  const Start start = {shapes.span(), smooth::Metric::space, topology.on_border.span(),
+                       set.position};
+  TRY(smooth_surface(context, start, constraints, settings.method, surface));
+  return verify_triangles(context, *surface);
 }
 
 }  /* namespace wireskin */
@@ -15191,16 +15272,16 @@ Filtered incircle_wide(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& 
   return {det.high, std::fabs(det.high) > 0x1p-95 * permanent};
 }
 
-/* Differences of neighbouring points are mostly exact in one double, so the expansions stay far */
-/* shorter than their room. */
+/* Differences of coordinates are multiples of 2^-252 below 2^201. */
 double incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const ExactVec2 ad = exact_vector(d, a);
   const ExactVec2 bd = exact_vector(d, b);
   const ExactVec2 cd = exact_vector(d, c);
-  const Expansion<512> a_term = exact_cross(bd, cd) * exact_square(ad);
-  const Expansion<512> b_term = exact_cross(cd, ad) * exact_square(bd);
-  const Expansion<512> c_term = exact_cross(ad, bd) * exact_square(cd);
-  return (a_term + b_term + c_term).leading();
+  Expansion<compact_parts(4, 453) + 32> sum;
+  add_product(exact_cross(bd, cd), exact_square(ad), &sum);
+  add_product(exact_cross(cd, ad), exact_square(bd), &sum);
+  add_product(exact_cross(ad, bd), exact_square(cd), &sum);
+  return sum.leading();
 }
 
 }  /* namespace wireskin */
@@ -15209,20 +15290,35 @@ double incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d
 /* ======== begin src/num/predicates3.cpp ======== */
 namespace wireskin {
 
+struct ExactVec3 {
+  Expansion<2> x, y, z;
+};
+
+static ExactVec3 exact_vector3(const Vec3& from, const Vec3& to) {
+  return {exact_difference(to.x, from.x), exact_difference(to.y, from.y),
+          exact_difference(to.z, from.z)};
+}
+
+/* Differences of coordinates are multiples of 2^-152 below 2^151. */
+static constexpr int k_triple_parts = compact_parts(3, 303);
+static constexpr int k_insphere_parts = compact_parts(5, 303);
+
+/* det(u, v, w). */
+static Expansion<k_triple_parts> exact_triple(const ExactVec3& u, const ExactVec3& v,
+                                              const ExactVec3& w) {
+  Expansion<k_triple_parts + 32> sum;
+  add_product(v.y * w.z - v.z * w.y, u.x, &sum);
+  add_product(v.z * w.x - v.x * w.z, u.y, &sum);
+  add_product(v.x * w.y - v.y * w.x, u.z, &sum);
+  return fitted<k_triple_parts>(sum);
+}
+
+static Expansion<24> exact_lift(const ExactVec3& u) {
+  return u.x * u.x + u.y * u.y + u.z * u.z;
+}
+
 double orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Expansion<2> ux = exact_difference(b.x, a.x);
-  const Expansion<2> uy = exact_difference(b.y, a.y);
-  const Expansion<2> uz = exact_difference(b.z, a.z);
-  const Expansion<2> vx = exact_difference(c.x, a.x);
-  const Expansion<2> vy = exact_difference(c.y, a.y);
-  const Expansion<2> vz = exact_difference(c.z, a.z);
-  const Expansion<2> wx = exact_difference(d.x, a.x);
-  const Expansion<2> wy = exact_difference(d.y, a.y);
-  const Expansion<2> wz = exact_difference(d.z, a.z);
-  const Expansion<64> x_term = (vy * wz - vz * wy) * ux;
-  const Expansion<64> y_term = (vz * wx - vx * wz) * uy;
-  const Expansion<64> z_term = (vx * wy - vy * wx) * uz;
-  return (x_term + y_term + z_term).leading();
+  return exact_triple(exact_vector3(a, b), exact_vector3(a, c), exact_vector3(a, d)).leading();
 }
 
 struct WideVec3 {
@@ -15277,64 +15373,19 @@ Filtered insphere_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
   return {det.high, std::fabs(det.high) > 0x1p-95 * permanent};
 }
 
-static Expansion<4> exact_minor(double ax, double by, double ay, double bx) {
-  return exact_product(ax, by) - exact_product(ay, bx);
-}
-
-/* det(u, v, w) of vectors that are exact in one double each. */
-static Expansion<24> exact_triple(const Vec3& u, const Vec3& v, const Vec3& w) {
-  return scale(exact_minor(v.y, w.z, v.z, w.y), u.x) + scale(exact_minor(v.z, w.x, v.x, w.z), u.y) +
-         scale(exact_minor(v.x, w.y, v.y, w.x), u.z);
-}
-
-static Expansion<6> exact_lift(const Vec3& u) {
-  return exact_product(u.x, u.x) + exact_product(u.y, u.y) + exact_product(u.z, u.z);
-}
-
-/* The difference, and whether it is exact. */
-static bool plain_difference(const Vec3& from, const Vec3& to, Vec3* difference) {
-  const TwoParts x = two_sum(to.x, -from.x);
-  const TwoParts y = two_sum(to.y, -from.y);
-  const TwoParts z = two_sum(to.z, -from.z);
-  *difference = {x.high, y.high, z.high};
-  return x.low == 0.0 && y.low == 0.0 && z.low == 0.0;
-}
-
-static Expansion<96> exact_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return (exact_triple(b, c, d) - exact_triple(a, c, d)) +
-         (exact_triple(a, b, d) - exact_triple(a, b, c));
-}
-
-/* For points whose differences need two doubles: the determinant of the coordinates themselves, */
-/* whose room is smaller than that of products of such differences (90 kilobytes of stack). */
-static double insphere_of_coordinates(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
-                                      const Vec3& p) {
-  const Vec3* const point[5] = {&a, &b, &c, &d, &p};
-  Expansion<5760> sum[2];
-  for (int i = 0; i < 5; ++i) {
-    const Vec3* rest[4];
-    int count = 0;
-    for (int k = 0; k < 5; ++k) {
-      if (k != i) rest[count++] = point[k];
-    }
-    const Expansion<96> volume = exact_volume(*rest[0], *rest[1], *rest[2], *rest[3]);
-    const Expansion<1152> term = (i % 2 == 0 ? -volume : volume) * exact_lift(*point[i]);
-    add_expansions(sum[i & 1], term, &sum[(i + 1) & 1]);
-  }
-  return sum[1].leading();
-}
-
-/* Exact ties come from coordinates of few digits, whose differences are exact in one double. */
+/* Exact ties come from coordinates of few digits, whose differences are exact in one double: then */
+/* the expansions are far shorter than their room. */
 double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p) {
-  Vec3 ap, bp, cp, dp;
-  const bool plain = plain_difference(p, a, &ap) && plain_difference(p, b, &bp) &&
-                     plain_difference(p, c, &cp) && plain_difference(p, d, &dp);
-  if (!plain) return insphere_of_coordinates(a, b, c, d, p);
-  const Expansion<576> ab =
-      exact_triple(bp, cp, dp) * exact_lift(ap) - exact_triple(ap, cp, dp) * exact_lift(bp);
-  const Expansion<576> cd =
-      exact_triple(ap, bp, dp) * exact_lift(cp) - exact_triple(ap, bp, cp) * exact_lift(dp);
-  return (ab + cd).leading();
+  const ExactVec3 ap = exact_vector3(p, a);
+  const ExactVec3 bp = exact_vector3(p, b);
+  const ExactVec3 cp = exact_vector3(p, c);
+  const ExactVec3 dp = exact_vector3(p, d);
+  Expansion<k_insphere_parts + 2 * k_triple_parts> sum;
+  add_product(exact_triple(bp, cp, dp), exact_lift(ap), &sum);
+  add_product(exact_triple(ap, cp, dp), -exact_lift(bp), &sum);
+  add_product(exact_triple(ap, bp, dp), exact_lift(cp), &sum);
+  add_product(exact_triple(ap, bp, cp), -exact_lift(dp), &sum);
+  return sum.leading();
 }
 
 }  /* namespace wireskin */
@@ -24287,6 +24338,82 @@ Status fit_curves(Context& context, const CurveSet& set, double size,
 }  /* namespace wireskin */
 /* ======== end src/surface/fit.cpp ======== */
 
+/* ======== begin src/surface/verify.cpp ======== */
+namespace wireskin {
+
+#ifdef WIRESKIN_DEBUG
+
+/* Nodes less segments of the patches' borders, and of each patch its inside: a disc, or with */
+/* several loops a sphere with that many holes, whatever curves lie in it. */
+static Status predict_euler_characteristic(Context& context, const network::Network& network,
+                                           int32_t* expected) {
+  Array<uint8_t> on_border(context), used(context);
+  TRY(on_border.assign(network.segment.size(), 0));
+  for (uint32_t h : network.loop.item) on_border[h / 2] = 1;
+  uint32_t nodes = 0;
+  for (const network::Segment& s : network.segment) {
+    if (s.from == k_none) continue;
+    nodes = nodes > s.from ? nodes : s.from + 1;
+    nodes = nodes > s.to ? nodes : s.to + 1;
+  }
+  TRY(used.assign(nodes, 0));
+  *expected = 0;
+  for (size_t s = 0; s < on_border.size(); ++s) {
+    const network::Segment& segment = network.segment[s];
+    if (!on_border[s] || segment.from == k_none) continue;  /* a closed curve comes to nought */
+    used[segment.from] = used[segment.to] = 1;
+    --*expected;
+  }
+  for (uint8_t node : used) *expected += node;
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    *expected += 2 - static_cast<int32_t>(network.patch_start[p + 1] - network.patch_start[p]);
+  }
+  return {};
+}
+
+static Status stop_on_fault(const Status& status) {
+  const bool no_memory = status.code == Code::out_of_memory || status.code == Code::memory_cap;
+  WIRESKIN_ASSERT(status.ok() || no_memory);
+  return no_memory ? status : Status{};
+}
+
+#endif
+
+Status verify_surface(Context& context, const network::Network& network, Span<const Vec3> position,
+                      const Surface& surface) {
+#ifdef WIRESKIN_DEBUG
+  int32_t expected = 0;
+  TRY(predict_euler_characteristic(context, network, &expected));
+  mesh::Expectations expectations;
+  expectations.position = position;
+  expectations.triangle = surface.triangle.span();
+  expectations.edge = surface.curve_edge.span();
+  expectations.patch = surface.patch.span();
+  expectations.euler_characteristic = &expected;
+  expectations.may_fold = true;
+  return stop_on_fault(mesh::check(context, expectations));
+#else
+  (void)context, (void)network, (void)position, (void)surface;
+  return {};
+#endif
+}
+
+Status verify_triangles(Context& context, const Surface& surface) {
+#ifdef WIRESKIN_DEBUG
+  mesh::Expectations expectations;
+  expectations.position = surface.position.span();
+  expectations.triangle = surface.triangle.span();
+  expectations.may_fold = true;
+  return stop_on_fault(mesh::check(context, expectations));
+#else
+  (void)context, (void)surface;
+  return {};
+#endif
+}
+
+}  /* namespace wireskin */
+/* ======== end src/surface/verify.cpp ======== */
+
 /* ======== begin src/api.cpp ======== */
 /* The C boundary: checks the caller's arrays, scales them, runs the pipeline, undoes the scaling */
 /* and fills result and report. Only this file and those in api/ see both the public header and the */
@@ -24676,9 +24803,10 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
     status[p] = static_cast<wsk_status>(surface.patches.status[p].code);
     block[ways + p] = surface.patches.way[p];
   }
-  view.patch_sentence = sentence;
-  view.patch_status = status;
-  view.patch_way = block + ways;
+  /* Surfaces of meshes and of flows have patches that no list says more of. */
+  view.patch_sentence = listed > 0 ? sentence : nullptr;
+  view.patch_status = listed > 0 ? status : nullptr;
+  view.patch_way = listed > 0 ? block + ways : nullptr;
   view.patch_curve_start = write_indices(block, patch_start, surface.patches.curve_start);
   view.patch_curves = write_indices(block, patch_curve, surface.patches.curve);
   *out = handle;

@@ -389,7 +389,7 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
     status[p] = static_cast<wsk_status>(surface.patches.status[p].code);
     block[ways + p] = surface.patches.way[p];
   }
-  // A surface from curves alone has no such list.
+  // Surfaces of meshes and of flows have patches that no list says more of.
   view.patch_sentence = listed > 0 ? sentence : nullptr;
   view.patch_status = listed > 0 ? status : nullptr;
   view.patch_way = listed > 0 ? block + ways : nullptr;

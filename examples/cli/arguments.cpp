@@ -39,12 +39,12 @@ INPUT is a network of curves, "-" for the standard input:
             curves. Samples whose coordinates are all equal are one point.
   .curves .curve .contour .curf
             polylines of CASSIE, of cycle discovery, of contours in planes, with tangents
-  .rawnet   what a shape sensor measures along curves, tangents instead of positions
-  .xyz      points without curves, rows as above
+  .rawnet   tangents measured along curves, as Stanko's sensors give them: positions are integrated
+  .xyz      points without curves, x y z or x y z nx ny nz
 What a file is, is seen from its content where the extension cannot be true.
 Curves meet where they share a vertex. A curve is closed if its last vertex repeats its first.
-Boundary curves are those where the surface ends. Normals point to the outer side; for curves
-without normals see --topology.
+Boundary curves are those where the surface ends. Normals point to the outer side; where there are
+none the curves alone give the surface (--topology flow).
 
 OUTPUT is the surface; -o may be repeated:
   .obj   positions, normals, a group patch_K for each patch

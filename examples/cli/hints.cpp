@@ -35,11 +35,12 @@ static std::string short_number(double value) {
 }
 
 std::string failure_hint(const Arguments& arguments, const Network& network,
-                         const wsk_report& report) {
+                         const BuildResult& result) {
+  const wsk_report& report = result.report;
   if (report.status == WSK_ERROR_CANCELLED) return "";
   const Reach reach = reach_of(network);
   if (report.status == WSK_ERROR_MISSING_NORMALS && network.normals.empty()) {
-    return "; the file gives no normals at all, and every curve but a crease needs them";
+    return "; the file gives no normals at all: --topology flow needs none";
   }
   if (report.status == WSK_ERROR_TOO_LARGE && arguments.spacing > 0.0) {
     return "; --spacing is " + short_number(arguments.spacing) + ", the diagonal of the network " +
@@ -47,7 +48,15 @@ std::string failure_hint(const Arguments& arguments, const Network& network,
   }
   // Far from the origin doubles are coarse; what then goes wrong does not look like it.
   const double rounding = reach.farthest * DBL_EPSILON;
-  if (!(rounding > 1e-9 * reach.diagonal) || !std::isfinite(reach.farthest)) return "";
+  const bool coarse = rounding > 1e-9 * reach.diagonal && std::isfinite(reach.farthest);
+  const uint32_t loose = result.prepared_view().after.dangling_ends;
+  if (!coarse && report.status == WSK_ERROR_OPEN_NETWORK && loose > 0) {
+    return "; " + std::to_string(loose) + (loose == 1 ? " end" : " ends") +
+           " of curves meet no other curve: --snap LENGTH joins what misses by less, and the "
+           "report "
+           "lists what was joined";
+  }
+  if (!coarse) return "";
   return "; the network spans " + short_number(reach.diagonal) + " but lies " +
          short_number(reach.farthest) + " from the origin, where numbers are rounded to about " +
          short_number(rounding) + ": move it to the origin";

@@ -4,13 +4,12 @@
 #include <string>
 
 #include "arguments.h"
-#include "network.h"
-#include "wireskin.h"
+#include "build.h"
 
 namespace wireskin_cli {
 
 // "; the file gives no normals ...", or "".
 std::string failure_hint(const Arguments& arguments, const Network& network,
-                         const wsk_report& report);
+                         const BuildResult& result);
 
 }  // namespace wireskin_cli

@@ -90,7 +90,7 @@ static void run(const Arguments& arguments) {
   progress.clear();
   if (result.surface == nullptr) {
     const std::string line = failure_line(arguments.input, network, result.report) +
-                             failure_hint(arguments, network, result.report);
+                             failure_hint(arguments, network, result);
     const size_t place = line_of(network, result.report);
     write_failure_report(arguments, report_of(arguments, result, place), line);
     throw Failure(line);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "camera.h"
@@ -66,28 +66,27 @@ void draw_surface(Canvas& canvas, const Camera& camera, const Vec3& isophotes,
   }
 }
 
-// The edges with one triangle, the lesser vertex first.
-std::set<std::pair<uint32_t, uint32_t>> border_edges(const wsk_surface_view& surface) {
-  std::set<std::pair<uint32_t, uint32_t>> border;
+// How many triangles each edge has, the lesser vertex first.
+std::map<std::pair<uint32_t, uint32_t>, int> triangles_of_edges(const wsk_surface_view& surface) {
+  std::map<std::pair<uint32_t, uint32_t>, int> count;
   for (size_t h = 0; h < 3 * static_cast<size_t>(surface.triangle_count); ++h) {
     const uint32_t a = surface.triangles[h];
     const uint32_t b = surface.triangles[h % 3 == 2 ? h - 2 : h + 1];
-    const auto [place, fresh] = border.emplace(std::min(a, b), std::max(a, b));
-    if (!fresh) border.erase(place);
+    ++count[{std::min(a, b), std::max(a, b)}];
   }
-  return border;
+  return count;
 }
 
 // The curves as the library resampled them lie exactly on the surface; the bias lets the nearer
 // half of their width show.
 void draw_curves(Canvas& canvas, const Camera& camera, const wsk_surface_view& surface) {
   const double radius = k_line_radius * k_samples;
-  const std::set<std::pair<uint32_t, uint32_t>> border = border_edges(surface);
+  auto count = triangles_of_edges(surface);
   for (const bool boundary : {false, true}) {
     for (size_t e = 0; e < surface.curve_edge_count; ++e) {
       const uint32_t from = surface.curve_edges[2 * e];
       const uint32_t to = surface.curve_edges[2 * e + 1];
-      if ((border.count({std::min(from, to), std::max(from, to)}) != 0) != boundary) continue;
+      if ((count[{std::min(from, to), std::max(from, to)}] == 1) != boundary) continue;
       const ScreenPoint a = camera.project(vec3_at(surface.positions, from));
       const ScreenPoint b = camera.project(vec3_at(surface.positions, to));
       draw_line(canvas, a, b, radius, 2.5 * radius, boundary ? k_boundary_colour : k_curve_colour);

@@ -106,7 +106,7 @@ bool is_too_large(std::string_view text) {
   double value = 0.0;
   text = without_plus(text);
   const char* end = text.data() + text.size();
-  const std::from_chars_result result = std::from_chars(text.data(), end, value);
+  const std::from_chars_result result = from_chars(text.data(), end, value);
   return result.ec == std::errc::result_out_of_range && result.ptr == end && !is_tiny(text);
 }
 

@@ -181,6 +181,37 @@ void mark_patch(const wsk_surface_view& surface, uint32_t patch, const std::stri
   }
 }
 
+// Patches that the surface was held back on. Those that were left out have no triangles to stand
+// on.
+void mark_patches(const wsk_surface_view& surface, Marks& marks) {
+  for (uint32_t p = 0; surface.patch_guarded != nullptr && p < surface.patch_count; ++p) {
+    if (surface.patch_guarded[p] == 0) continue;
+    mark_patch(surface, p,
+               "patch " + std::to_string(p) + " was held back: its last steps went astray", marks);
+  }
+}
+
+// Ends of curves that meet nothing.
+void mark_ends(const wsk_network_view& prepared, Marks& marks) {
+  std::map<uint32_t, size_t> uses;
+  for (uint32_t c = 0; c < prepared.curve_count; ++c) {
+    const wsk_curve& curve = prepared.curves[c];
+    for (size_t i = 0; curve.nodes != nullptr && i < curve.sample_count; ++i)
+      ++uses[curve.nodes[i]];
+  }
+  for (uint32_t c = 0; c < prepared.curve_count; ++c) {
+    const wsk_curve& curve = prepared.curves[c];
+    if (curve.closed != 0 || curve.sample_count < 2) continue;
+    for (const size_t end : {size_t{0}, curve.sample_count - 1}) {
+      const uint32_t node = curve.nodes == nullptr ? WSK_NONE : curve.nodes[end];
+      if (node != WSK_NONE && uses[node] > 1) continue;
+      const uint32_t given = prepared.given_curve[prepared.first_sample[c] + end];
+      marks.add("curve " + std::to_string(given) + " ends here and meets no other",
+                curve.positions + 3 * end);
+    }
+  }
+}
+
 void mark_flow(const wsk_surface_view& surface, const FlowSummary& flow, Marks& marks) {
   for (uint32_t p = 0; p < flow.patches.size(); ++p) {
     if (flow.patches[p].open == 0) continue;
@@ -234,6 +265,8 @@ std::string page_bytes(const PageInput& input) {
   add_samples(input.result, origin, arrays);
   Marks marks(origin);
   mark_preparation(input.result.prepared_view(), marks);
+  mark_ends(input.result.prepared_view(), marks);
+  mark_patches(input.surface, marks);
   if (input.result.flow != nullptr) mark_flow(input.surface, *input.result.flow, marks);
   std::string origin_text;
   for (size_t k = 0; k < 3; ++k) {

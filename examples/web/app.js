@@ -19,6 +19,10 @@ const k_form = `
       <option>triharmonic</option></select>
     <label for="spacing">Spacing</label><input id="spacing" type="text" inputmode="decimal" placeholder="automatic">
     <label for="soft">Soft</label><input id="soft" type="text" inputmode="decimal" placeholder="curves hold">
+    <label for="topology">Patches</label><select id="topology"><option value="auto">automatic</option>
+      <option value="normals">by normals</option><option value="flow">by curves alone</option></select>
+    <label for="voids">Voids</label><input id="voids" type="text" inputmode="numeric" placeholder="automatic">
+    <label for="snap">Snap</label><input id="snap" type="text" inputmode="decimal" placeholder="automatic">
   </div>
   <div class="buttons">
     <button type="button" id="run" class="first" disabled>Surface</button>
@@ -97,8 +101,8 @@ class App {
   }
 
   options() {
-    const words = ["--method", byId("method").value];
-    for (const name of ["spacing", "soft"]) {
+    const words = ["--method", byId("method").value, "--topology", byId("topology").value];
+    for (const name of ["spacing", "soft", "voids", "snap"]) {
       if (byId(name).value.trim()) words.push(`--${name}`, byId(name).value.trim());
     }
     return words;

@@ -58,10 +58,11 @@ const k_report = [
   ["Method", "method"], ["Status", "status"], ["Curves", "curves"], ["Nodes", "nodes"], ["Segments", "segments"],
   ["Patches", "patches"], ["Vertices", "vertices"], ["Triangles", "triangles"], ["Components", "components"],
   ["Boundary loops", "boundary_loops"], ["Euler characteristic", "euler_characteristic"],
-  ["Betti numbers", "betti"], ["Voids", "voids"], ["Spacing", "spacing"], ["Least angle", "min_angle_deg", "°"],
+  ["Betti numbers", "flow.betti"], ["Open patches", "flow.open_patches"], ["Bare segments", "flow.bare_segments"],
+  ["Spacing", "spacing"], ["Least angle", "min_angle_deg", "°"],
   ["Noise found", "noise_position"], ["Greatest distance from a sample", "constraint_distance_max"],
   ["Mean normal deviation", "normal_deviation_mean_deg", "°"], ["Mean angle across curves", "dihedral_mean_deg", "°"],
-  ["Snaps", "snap_count"], ["Minimal-area patches", "minimal_area_patches"], ["Guarded patches", "guarded_patches"],
+  ["Joints snapped", "preparation.snaps"], ["Open ends", "preparation.after.dangling_ends"], ["Left out patches", "failed_patches"], ["Minimal-area patches", "minimal_area_patches"], ["Guarded patches", "guarded_patches"],
   ["Factorisations", "factorisations"], ["Peak memory", "peak_bytes", " bytes"], ["Time", "total_ms", " ms"],
 ];
 
@@ -189,12 +190,14 @@ export class Viewer {
   }
 
   showReport(report) {
+    const valueOf = (key) => key.split(".").reduce((object, name) => object?.[name], report);
     const rows = k_report
-      .filter(([, key]) => report[key] !== undefined && report[key] !== null)
-      .map(([name, key, unitText]) => {
+      .map(([name, key, unitText]) => [name, key, valueOf(key), unitText])
+      .filter(([, , value]) => value !== undefined && value !== null)
+      .map(([name, key, value, unitText]) => {
         const row = document.createElement("tr");
-        const value = Array.isArray(report[key]) ? report[key].length : report[key];
-        const text = key === "betti" ? report[key].join(", ") : formatNumber(value) + (unitText ?? "");
+        const number = Array.isArray(value) ? value.length : value;
+        const text = key === "flow.betti" ? value.join(", ") : formatNumber(number) + (unitText ?? "");
         for (const cell of [name, text]) row.insertCell().textContent = cell;
         return row;
       });

@@ -1,5 +1,6 @@
 // Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum,
-// difference, scaling and product, of a size fixed at compile time and wholly on the stack.
+// difference, scaling and product, of a size fixed at compile time and wholly on the stack. compact
+// writes a number in as few parts as its bits need, so that long sums of products fit small rooms.
 //
 // Invariants: the parts are non-zero, do not overlap and grow in magnitude, so the last one
 // carries the sign; no part at all is zero. Exact while no product over- or underflows (see
@@ -142,6 +143,60 @@ Expansion<2 * M * N> operator*(const Expansion<M>& e, const Expansion<N>& f) {
     add_expansions(sums[i & 1], term, &sums[(i + 1) & 1]);
   }
   return sums[f.size & 1];
+}
+
+// The same number in as few parts as its bits need. Downward, each part takes up what fits into it
+// of the next: parts are at least 52 bits apart then. Upward, neighbours that touch are parted, so
+// that sums and scalings take the result as they take any expansion.
+template <int N>
+void compact(Expansion<N>* e) {
+  if (e->size < 2) return;
+  int bottom = e->size;
+  double high = e->part[e->size - 1];
+  for (int i = e->size - 2; i >= 0; --i) {
+    const TwoParts s = fast_two_sum(high, e->part[i]);
+    high = s.high;
+    if (s.low == 0.0) continue;
+    e->part[--bottom] = s.high;
+    high = s.low;
+  }
+  const int count = e->size;
+  e->size = 0;
+  for (int i = bottom; i < count; ++i) {
+    const TwoParts s = fast_two_sum(e->part[i], high);
+    e->push(s.low);
+    high = s.high;
+  }
+  e->push(high);
+}
+
+// The most parts that compact leaves of a product of so many factors, a sum of a few such products
+// or less, where each factor is a multiple of one power of two and below another, 2^bits apart.
+constexpr int compact_parts(int factors, int bits) {
+  return (factors * bits + 8) / 52 + 1;
+}
+
+// The number in a smaller room; the caller knows that compact makes it fit.
+template <int R, int N>
+Expansion<R> fitted(Expansion<N> e) {
+  if (e.size > R) compact(&e);
+  WIRESKIN_ASSERT(e.size <= R);
+  Expansion<R> result;
+  for (int i = 0; i < e.size; ++i) result.push(e.part[i]);
+  return result;
+}
+
+// *sum += e * f. Room needed: what compact leaves of the greatest sum, and 2 M parts.
+template <int M, int N, int R>
+void add_product(const Expansion<M>& e, const Expansion<N>& f, Expansion<R>* sum) {
+  Expansion<R> before;
+  for (int i = 0; i < f.size; ++i) {
+    const Expansion<2 * M> term = scale(e, f.part[i]);
+    if (sum->size + term.size > R) compact(sum);
+    before.size = 0;
+    for (int k = 0; k < sum->size; ++k) before.push(sum->part[k]);
+    add_expansions(before, term, sum);
+  }
 }
 
 }  // namespace wireskin

@@ -53,16 +53,16 @@ Filtered incircle_wide(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& 
   return {det.high, std::fabs(det.high) > 0x1p-95 * permanent};
 }
 
-// Differences of neighbouring points are mostly exact in one double, so the expansions stay far
-// shorter than their room.
+// Differences of coordinates are multiples of 2^-252 below 2^201.
 double incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const ExactVec2 ad = exact_vector(d, a);
   const ExactVec2 bd = exact_vector(d, b);
   const ExactVec2 cd = exact_vector(d, c);
-  const Expansion<512> a_term = exact_cross(bd, cd) * exact_square(ad);
-  const Expansion<512> b_term = exact_cross(cd, ad) * exact_square(bd);
-  const Expansion<512> c_term = exact_cross(ad, bd) * exact_square(cd);
-  return (a_term + b_term + c_term).leading();
+  Expansion<compact_parts(4, 453) + 32> sum;
+  add_product(exact_cross(bd, cd), exact_square(ad), &sum);
+  add_product(exact_cross(cd, ad), exact_square(bd), &sum);
+  add_product(exact_cross(ad, bd), exact_square(cd), &sum);
+  return sum.leading();
 }
 
 }  // namespace wireskin

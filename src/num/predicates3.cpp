@@ -5,20 +5,35 @@
 
 namespace wireskin {
 
+struct ExactVec3 {
+  Expansion<2> x, y, z;
+};
+
+static ExactVec3 exact_vector3(const Vec3& from, const Vec3& to) {
+  return {exact_difference(to.x, from.x), exact_difference(to.y, from.y),
+          exact_difference(to.z, from.z)};
+}
+
+// Differences of coordinates are multiples of 2^-152 below 2^151.
+static constexpr int k_triple_parts = compact_parts(3, 303);
+static constexpr int k_insphere_parts = compact_parts(5, 303);
+
+// det(u, v, w).
+static Expansion<k_triple_parts> exact_triple(const ExactVec3& u, const ExactVec3& v,
+                                              const ExactVec3& w) {
+  Expansion<k_triple_parts + 32> sum;
+  add_product(v.y * w.z - v.z * w.y, u.x, &sum);
+  add_product(v.z * w.x - v.x * w.z, u.y, &sum);
+  add_product(v.x * w.y - v.y * w.x, u.z, &sum);
+  return fitted<k_triple_parts>(sum);
+}
+
+static Expansion<24> exact_lift(const ExactVec3& u) {
+  return u.x * u.x + u.y * u.y + u.z * u.z;
+}
+
 double orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Expansion<2> ux = exact_difference(b.x, a.x);
-  const Expansion<2> uy = exact_difference(b.y, a.y);
-  const Expansion<2> uz = exact_difference(b.z, a.z);
-  const Expansion<2> vx = exact_difference(c.x, a.x);
-  const Expansion<2> vy = exact_difference(c.y, a.y);
-  const Expansion<2> vz = exact_difference(c.z, a.z);
-  const Expansion<2> wx = exact_difference(d.x, a.x);
-  const Expansion<2> wy = exact_difference(d.y, a.y);
-  const Expansion<2> wz = exact_difference(d.z, a.z);
-  const Expansion<64> x_term = (vy * wz - vz * wy) * ux;
-  const Expansion<64> y_term = (vz * wx - vx * wz) * uy;
-  const Expansion<64> z_term = (vx * wy - vy * wx) * uz;
-  return (x_term + y_term + z_term).leading();
+  return exact_triple(exact_vector3(a, b), exact_vector3(a, c), exact_vector3(a, d)).leading();
 }
 
 struct WideVec3 {
@@ -73,64 +88,19 @@ Filtered insphere_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
   return {det.high, std::fabs(det.high) > 0x1p-95 * permanent};
 }
 
-static Expansion<4> exact_minor(double ax, double by, double ay, double bx) {
-  return exact_product(ax, by) - exact_product(ay, bx);
-}
-
-// det(u, v, w) of vectors that are exact in one double each.
-static Expansion<24> exact_triple(const Vec3& u, const Vec3& v, const Vec3& w) {
-  return scale(exact_minor(v.y, w.z, v.z, w.y), u.x) + scale(exact_minor(v.z, w.x, v.x, w.z), u.y) +
-         scale(exact_minor(v.x, w.y, v.y, w.x), u.z);
-}
-
-static Expansion<6> exact_lift(const Vec3& u) {
-  return exact_product(u.x, u.x) + exact_product(u.y, u.y) + exact_product(u.z, u.z);
-}
-
-// The difference, and whether it is exact.
-static bool plain_difference(const Vec3& from, const Vec3& to, Vec3* difference) {
-  const TwoParts x = two_sum(to.x, -from.x);
-  const TwoParts y = two_sum(to.y, -from.y);
-  const TwoParts z = two_sum(to.z, -from.z);
-  *difference = {x.high, y.high, z.high};
-  return x.low == 0.0 && y.low == 0.0 && z.low == 0.0;
-}
-
-static Expansion<96> exact_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return (exact_triple(b, c, d) - exact_triple(a, c, d)) +
-         (exact_triple(a, b, d) - exact_triple(a, b, c));
-}
-
-// For points whose differences need two doubles: the determinant of the coordinates themselves,
-// whose room is smaller than that of products of such differences (90 kilobytes of stack).
-static double insphere_of_coordinates(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
-                                      const Vec3& p) {
-  const Vec3* const point[5] = {&a, &b, &c, &d, &p};
-  Expansion<5760> sum[2];
-  for (int i = 0; i < 5; ++i) {
-    const Vec3* rest[4];
-    int count = 0;
-    for (int k = 0; k < 5; ++k) {
-      if (k != i) rest[count++] = point[k];
-    }
-    const Expansion<96> volume = exact_volume(*rest[0], *rest[1], *rest[2], *rest[3]);
-    const Expansion<1152> term = (i % 2 == 0 ? -volume : volume) * exact_lift(*point[i]);
-    add_expansions(sum[i & 1], term, &sum[(i + 1) & 1]);
-  }
-  return sum[1].leading();
-}
-
-// Exact ties come from coordinates of few digits, whose differences are exact in one double.
+// Exact ties come from coordinates of few digits, whose differences are exact in one double: then
+// the expansions are far shorter than their room.
 double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p) {
-  Vec3 ap, bp, cp, dp;
-  const bool plain = plain_difference(p, a, &ap) && plain_difference(p, b, &bp) &&
-                     plain_difference(p, c, &cp) && plain_difference(p, d, &dp);
-  if (!plain) return insphere_of_coordinates(a, b, c, d, p);
-  const Expansion<576> ab =
-      exact_triple(bp, cp, dp) * exact_lift(ap) - exact_triple(ap, cp, dp) * exact_lift(bp);
-  const Expansion<576> cd =
-      exact_triple(ap, bp, dp) * exact_lift(cp) - exact_triple(ap, bp, cp) * exact_lift(dp);
-  return (ab + cd).leading();
+  const ExactVec3 ap = exact_vector3(p, a);
+  const ExactVec3 bp = exact_vector3(p, b);
+  const ExactVec3 cp = exact_vector3(p, c);
+  const ExactVec3 dp = exact_vector3(p, d);
+  Expansion<k_insphere_parts + 2 * k_triple_parts> sum;
+  add_product(exact_triple(bp, cp, dp), exact_lift(ap), &sum);
+  add_product(exact_triple(ap, cp, dp), -exact_lift(bp), &sum);
+  add_product(exact_triple(ap, bp, dp), exact_lift(cp), &sum);
+  add_product(exact_triple(ap, bp, cp), -exact_lift(dp), &sum);
+  return sum.leading();
 }
 
 }  // namespace wireskin

@@ -88,6 +88,7 @@ TEST_CASE("a picture has a white border, stripes, and both kinds of curves") {
   Square square;
   // Normals that spread out, so that the square shows stripes.
   square.normals = {-0.6, -0.6, 0.53, 0.6, -0.6, 0.53, 0.6, 0.6, 0.53, -0.6, 0.6, 0.53};
+  square.curve_edges = {0, 1, 1, 2, 3, 0, 0, 2};  // the last one lies inside
   const Image image = draw_picture(square.view(), 2);
   REQUIRE(image.width == 1600);
   REQUIRE(image.height >= 500);

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "support/dyadic.h"
 #include "num/wide.h"
+#include "support/dyadic.h"
 
 using namespace wireskin;
 using scenes::Dyadic;
@@ -86,6 +86,56 @@ TEST_CASE("sums, differences, scalings and products of expansions are exact") {
     CHECK(((e * f).leading() > 0) - ((e * f).leading() < 0) == (exact_e * exact_f).sign());
     CHECK((e - e).size == 0);
     CHECK((e - e).leading() == 0.0);
+  }
+}
+
+TEST_CASE("compact keeps the number, and leaves no more parts than its bits need") {
+  std::mt19937_64 random(4);
+  int shortened = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto pick = [&] { return random_double(&random); };
+    const Expansion<4> e = exact_product(pick(), pick()) + exact_product(pick(), pick());
+    const Expansion<4> f = exact_product(pick(), pick()) - exact_difference(pick(), pick());
+    const Expansion<32> whole = e * f;
+    Expansion<32> compacted = whole;
+    compact(&compacted);
+    CHECK(is_expansion(compacted));
+    CHECK(equal(exact_value(compacted), exact_value(e) * exact_value(f)));
+    CHECK(compacted.size <= whole.size);
+    // Factors are multiples of 2^-226 below 2^122.
+    CHECK(compacted.size <= compact_parts(2, 348));
+    shortened += compacted.size < whole.size;
+    const double factor = pick();
+    CHECK(equal(exact_value(scale(compacted, factor)), exact_value(whole) * Dyadic(factor)));
+    CHECK(equal(exact_value(compacted - e), exact_value(whole) - exact_value(e)));
+    CHECK(equal(exact_value(fitted<16>(whole)), exact_value(whole)));
+  }
+  CHECK(shortened > 1000);
+}
+
+TEST_CASE("parts that touch are parted: 2^53 + 1 and a half") {
+  Expansion<4> e;
+  for (const double part : {0x1p-80, 0.5, 0x1p+53 - 1.0}) e.push(part);
+  compact(&e);
+  CHECK(is_expansion(e));
+  CHECK(e.size <= 3);
+  CHECK(equal(exact_value(e), Dyadic(0x1p+53 - 1.0) + Dyadic(0.5) + Dyadic(0x1p-80)));
+}
+
+TEST_CASE("add_product adds products in a room that only compact makes enough") {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const auto pick = [&] { return random_double(&random); };
+    Expansion<compact_parts(2, 348) + 8> sum;
+    Dyadic exact;
+    for (int k = 0; k < 6; ++k) {
+      const Expansion<4> e = exact_product(pick(), pick()) + exact_product(pick(), pick());
+      const Expansion<4> f = exact_product(pick(), pick()) - exact_difference(pick(), pick());
+      add_product(e, f, &sum);
+      exact = exact + exact_value(e) * exact_value(f);
+    }
+    CHECK(is_expansion(sum));
+    CHECK(equal(exact_value(sum), exact));
   }
 }
 
