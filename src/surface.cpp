@@ -27,6 +27,18 @@ static Status list_curve_edges(const network::Network& network,
   return {};
 }
 
+// The edges of curves inside patches.
+static Status list_inner_edges(const network::Network& network,
+                               const network::CurveVertices& vertices, Array<uint32_t>* edges) {
+  for (uint32_t s : network.inner.item) {
+    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+      TRY(edges->push(network::segment_vertex(network, vertices, s, k)));
+      TRY(edges->push(network::segment_vertex(network, vertices, s, k + 1)));
+    }
+  }
+  return {};
+}
+
 // The curves of each patch, each once.
 static Status list_patch_curves(const network::Network& network, PatchList* patches) {
   TRY(patches->curve_start.push(0));
@@ -124,7 +136,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   mesh::Topology topology(context);
   Constraints constraints(context);
   Array<Vec3> given(context);
-  Array<uint32_t> original(context);
+  Array<uint32_t> original(context), inner_edge(context);
 
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
@@ -144,6 +156,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(context.enter(Stage::patches));
   TRY(make_patches(fitted, settings, &nodes, &network, &vertices, &patches, &original, surface));
   TRY(list_curve_edges(network, vertices, surface));
+  TRY(list_inner_edges(network, vertices, &inner_edge));
   counts->patches = network.patches();
   counts->free_vertices = patches.vertices - patches.curve_vertices;
   TRY(take_vertices(vertices, patches, surface));
@@ -154,7 +167,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
 
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
-                       patches.start.span(), patches.placed.span()};
+                       patches.start.span(), patches.placed.span(),  inner_edge.span()};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,

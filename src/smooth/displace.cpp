@@ -46,28 +46,86 @@ struct NormalEquations {
 
 }  // namespace
 
+namespace {
+
+// The edges of curves inside patches, as the other ends of those at each vertex.
+struct InnerEdges {
+  Array<uint32_t> start, other;
+
+  explicit InnerEdges(Context& context) : start(context), other(context) {}
+  Span<const uint32_t> operator[](uint32_t v) const {
+    return start.empty() ? Span<const uint32_t>{}
+                         : other.span().part(start[v], start[v + 1] - start[v]);
+  }
+};
+
+}  // namespace
+
+static Status list_inner_edges(const DisplaceInput& input, InnerEdges* edges) {
+  const Span<const uint32_t> ends = input.inner_edge;
+  if (ends.empty()) return {};
+  TRY(edges->start.assign(input.position.size() + 1, 0));
+  TRY(edges->other.resize(ends.size()));
+  for (uint32_t v : ends) ++edges->start[v];
+  starts_from_counts(edges->start.span());
+  for (uint32_t i = 0; i < ends.size(); ++i) edges->other[edges->start[ends[i]]++] = ends[i ^ 1u];
+  for (size_t v = edges->start.size() - 1; v > 0; --v) edges->start[v] = edges->start[v - 1];
+  edges->start[0] = 0;
+  return {};
+}
+
+// Gives the corners of v's fan that follow `corner` within its sector the same copy, turning one
+// way round v: a sector ends at another patch and at an edge of a curve.
+static void walk_sector(const DisplaceInput& input, Span<const uint32_t> fan,
+                        Span<const uint32_t> cuts, uint32_t corner, bool forward,
+                        SplitMesh* split) {
+  const uint32_t copy = split->triangle[corner], patch = input.patch[corner / 3];
+  for (bool going = true; going;) {
+    const uint32_t edge = forward ? mesh::previous_half_edge(corner) : mesh::next_half_edge(corner);
+    const uint32_t across = input.triangle[edge];
+    for (uint32_t end : cuts) {
+      if (end == across) return;
+    }
+    going = false;
+    for (uint32_t c : fan) {
+      const uint32_t side = forward ? mesh::next_half_edge(c) : mesh::previous_half_edge(c);
+      const bool next = input.triangle[side] == across && input.patch[c / 3] == patch;
+      if (!next || split->triangle[c] != k_none) continue;
+      split->triangle[c] = copy;
+      corner = c;
+      going = true;
+      break;
+    }
+  }
+}
+
 // Gives every corner its split vertex: free vertices keep theirs, the corners of a held vertex
-// share one in each patch.
+// share one in each patch, those of a held vertex on a curve inside the patch one on each side.
 static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
   Context& context = split->origin.context();
   const uint32_t n = static_cast<uint32_t>(input.position.size());
   Array<uint32_t> start(context), corner(context);
+  InnerEdges inner(context);
   TRY(mesh::find_corners(n, input.triangle, &start, &corner));
-  TRY(split->triangle.resize(input.triangle.size()));
+  TRY(list_inner_edges(input, &inner));
+  TRY(split->triangle.assign(input.triangle.size(), k_none));
   TRY(split->origin.reserve(input.triangle.size()));
   for (uint32_t v = 0; v < n; ++v) {
-    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
-      const uint32_t patch = input.patch[corner[k] / 3];
-      uint32_t copy = k_none;
-      for (uint32_t j = start[v]; j < k && copy == k_none; ++j) {
-        const bool same = !input.on_curve[v] || input.patch[corner[j] / 3] == patch;
-        if (same) copy = split->triangle[corner[j]];
+    const Span<const uint32_t> fan = corner.span().part(start[v], start[v + 1] - start[v]);
+    // A soft vertex has an unknown, whose column takes no row twice.
+    const Span<const uint32_t> cuts = input.held[v] ? inner[v] : Span<const uint32_t>{};
+    for (uint32_t k = 0; k < fan.size(); ++k) {
+      uint32_t& copy = split->triangle[fan[k]];
+      for (uint32_t j = 0; j < k && copy == k_none && cuts.empty(); ++j) {
+        const bool same = !input.on_curve[v] || input.patch[fan[j] / 3] == input.patch[fan[k] / 3];
+        if (same) copy = split->triangle[fan[j]];
       }
-      if (copy == k_none) {
-        copy = static_cast<uint32_t>(split->origin.size());
-        split->origin.push_reserved(v);
-      }
-      split->triangle[corner[k]] = copy;
+      if (copy != k_none) continue;
+      copy = static_cast<uint32_t>(split->origin.size());
+      split->origin.push_reserved(v);
+      if (cuts.empty()) continue;
+      walk_sector(input, fan, cuts, fan[k], true, split);
+      walk_sector(input, fan, cuts, fan[k], false, split);
     }
   }
   split->vertices = static_cast<uint32_t>(split->origin.size());

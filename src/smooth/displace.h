@@ -3,8 +3,9 @@
 // the curves.
 //
 // Unknowns: a displacement u per free vertex and a mean curvature h per vertex. On the mesh split
-// along the curves (a held vertex has one row in each patch it touches) the integrated Laplacian of
-// the displaced positions is asked to be -2 m h n, and h to have the least square Laplacian:
+// along the curves (a held vertex has one row in each patch it touches, on each side of a curve)
+// the integrated Laplacian of the displaced positions is asked to be -2 m h n, and h to have the
+// least square Laplacian:
 //   sum_r (g_r - (L u)_r - 2 m_r h_i(r))^2 / m_r + (c l)^4 h^T (Ls M^-1 Ls) h,
 //   g_r = -<(L v)_r + c_r, n_i(r)>,
 // and, where the curves foretell H on them (node_curvature.h), c l w (h - H)^2 more. There c_r is
@@ -37,6 +38,7 @@ struct DisplaceInput {
   Span<const uint8_t> bare = {};  // held, on a border, normal not known; empty: none
   // Mean curvature as the nodes foretell it, and its weight, a length; empty: none.
   Span<const double> foretold_curvature = {}, foretold_weight = {};
+  Span<const uint32_t> inner_edge = {};  // of curves inside patches, two vertices each
 
   bool is_bare(uint32_t v) const { return !bare.empty() && bare[v]; }
 };

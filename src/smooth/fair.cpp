@@ -246,7 +246,8 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
                                mesh.soft,
                                mesh.bare,
                                foretold.curvature.span(),
-                               foretold.weight.span()};
+                               foretold.weight.span(),
+                               mesh.inner_edge};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {

@@ -33,6 +33,7 @@ struct FairMesh {
   // Free vertices with a place to start from instead of the harmonic one; empty: none.
   Span<const Vec3> start = {};
   Span<const uint8_t> placed = {};
+  Span<const uint32_t> inner_edge = {};  // of curves inside patches, two vertices each
 };
 
 struct FairOptions {

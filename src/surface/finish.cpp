@@ -55,6 +55,7 @@ struct Workpiece {
   smooth::Soft soft;
   Span<const Vec3> start = {};
   Span<const uint8_t> placed = {};
+  Span<const uint32_t> inner_edge = {};
 };
 
 }  // namespace
@@ -91,7 +92,8 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                  surface->patch_guarded.span(),
                                  places,
                                  piece.start,
-                                 piece.placed};
+                                 piece.placed,
+                                 piece.inner_edge};
   TRY(smooth::fair(context, mesh, counts->patches, options, &report));
   counts->residual = report.residual;
   counts->guarded_patches = report.guarded_patches;
@@ -132,7 +134,8 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
                            {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
                             surface->constraint_normal.span(), surface->counts.spacing},
                            start.position,
-                           start.placed};
+                           start.placed,
+                           start.inner_edge};
   TRY(apply_method(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
 }

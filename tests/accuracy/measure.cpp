@@ -56,6 +56,15 @@ static void take(wsk_surface* surface, Result* result) {
   wsk_surface_free(surface);
 }
 
+Result build(const wsk_curve* curves, size_t count, const wsk_options& options) {
+  Result result;
+  wsk_surface* surface = nullptr;
+  wsk_report_init(&result.report, sizeof result.report);
+  result.status = wsk_build(curves, count, &options, &surface, &result.report);
+  if (result.status == WSK_OK) take(surface, &result);
+  return result;
+}
+
 Result build(const Network& network, const wsk_options& options) {
   std::vector<std::vector<Point>> positions, normals;
   for (const auto& curve : network.curves) {
@@ -78,12 +87,7 @@ Result build(const Network& network, const wsk_options& options) {
     given.boundary = curve.boundary;
     curves.push_back(given);
   }
-  Result result;
-  wsk_surface* surface = nullptr;
-  wsk_report_init(&result.report, sizeof result.report);
-  result.status = wsk_build(curves.data(), curves.size(), &options, &surface, &result.report);
-  if (result.status == WSK_OK) take(surface, &result);
-  return result;
+  return build(curves.data(), curves.size(), options);
 }
 
 Result build(const Network& network, wsk_method method, double spacing) {

@@ -29,6 +29,7 @@ networks::Mesh mesh_of(const Result& result);
 // Defaults, with a clock; spacing 0 is the library's.
 wsk_options options_for(wsk_method method, double spacing);
 
+Result build(const wsk_curve* curves, size_t count, const wsk_options& options);
 Result build(const networks::Network& network, const wsk_options& options);
 Result build(const networks::Network& network, wsk_method method, double spacing);
 Result smooth(const networks::BandMesh& mesh, wsk_method method);

@@ -198,6 +198,30 @@ TEST_CASE("loops: a hole, an inner curve, a band, a great circle") {
   CHECK(worst < 1e-2);
 }
 
+TEST_CASE("the normals of a dangling curve bind as those of other curves do") {
+  Net net = disc();
+  net.bump(-2, 2, 0.0);
+  Line& line = net.lines.back();
+  for (size_t i = 0; i < line.normal.size(); i += 3) {  // turned about the curve by 20 degrees
+    line.normal[i + 1] = std::sin(k_turn / 18);
+    line.normal[i + 2] = std::cos(k_turn / 18);
+  }
+  const Built b(net);
+  REQUIRE(b.status == WSK_OK);
+  double sum = 0.0;
+  size_t count = 0;
+  for (uint32_t v = 0; v < b.view.vertex_count; ++v) {
+    const double *n = &b.view.normals[3 * v], *p = &b.view.positions[3 * v];
+    if (b.view.vertex_curve[v] != 1 || std::fabs(p[0]) > 1.5) continue;
+    const double* given = &b.view.constraint_normals[3 * v];
+    sum += std::acos(std::fmin(1.0, n[0] * given[0] + n[1] * given[1] + n[2] * given[2]));
+    ++count;
+  }
+  REQUIRE(count > 10);
+  const double mean = sum / static_cast<double>(count) * 360.0 / k_turn;
+  CHECK(mean < 2.0);
+}
+
 TEST_CASE("partial: patches that fail are left out and listed") {
   Net net = disc();
   Line eight;  // crosses itself

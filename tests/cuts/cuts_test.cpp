@@ -3,13 +3,10 @@
 // the folder that WIRESKIN_TEST_DATA names.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <map>
-#include <set>
 #include <string>
 
-#include "accuracy/real.h"
+#include "cuts/shapes.h"
 
 using namespace accuracy;
 using namespace networks;
@@ -35,6 +32,7 @@ const Cuts k_cuts[] = {
     {"libigl-meshes/fertility.off", k_five, k_five, k_five},
     {"pmp-meshes/hemisphere.off", k_two, k_two, {}},
     {"pmp-meshes/hemisphere.off", k_three, k_three, {0.513}},
+    {"common-meshes/beetle.obj", k_two, k_two, k_two},
     {"stability-networks/shell.obj", k_two, k_two, {}},
     {"stability-networks/half_sphere.obj", k_two, k_two, {}},
     {"stability-networks/hill.obj", k_three, k_two, {}},
@@ -57,23 +55,6 @@ std::vector<Plane> planes_of(const Mesh& mesh, const Cuts& cuts) {
   return planes;
 }
 
-long euler_characteristic(const Mesh& mesh) {
-  std::set<uint32_t> vertices;
-  std::set<std::pair<uint32_t, uint32_t>> edges;
-  for (const auto& t : mesh.triangles) {
-    for (size_t i = 0; i < 3; ++i) {
-      vertices.insert(t[i]);
-      edges.insert(std::minmax(t[i], t[(i + 1) % 3]));
-    }
-  }
-  return static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) +
-         static_cast<long>(mesh.triangles.size());
-}
-
-Mesh read_mesh(const std::string& path) {
-  return path.substr(path.size() - 4) == ".off" ? read_off(path) : read_obj(path);
-}
-
 }  // namespace
 
 TEST_CASE("networks cut by planes are surfaced as the mesh they come from") {
@@ -85,7 +66,7 @@ TEST_CASE("networks cut by planes are surfaced as the mesh they come from") {
     if (path.empty()) continue;
     ++found;
     CAPTURE(std::string(cuts.file));
-    const Mesh mesh = read_mesh(path);
+    const Mesh mesh = cuts::read_mesh(path);
     RealCase c;
     c.network = cut(mesh, planes_of(mesh, cuts));
     c.truth = std::make_shared<MeshDistance>(mesh);
@@ -104,7 +85,7 @@ TEST_CASE("networks cut by planes are surfaced as the mesh they come from") {
                 result.report.patches, result.report.euler_characteristic,
                 result.report.minimal_area_patches, 1000.0 * error.rms / size,
                 1000.0 * error.max / size);
-    CHECK(result.report.euler_characteristic == euler_characteristic(mesh));
+    CHECK(result.report.euler_characteristic == cuts::euler_characteristic(mesh));
     CHECK(error.inside_out.empty());
     CHECK(error.rms < 0.03 * size);
   }

@@ -19,6 +19,12 @@ static size_t stride_for(size_t count, size_t sample) {
   return std::max<size_t>(1, count / sample);
 }
 
+static std::vector<Scene> fault_scenes() {
+  std::vector<Scene> list = scenes::all();
+  for (const Scene& scene : scenes::unusual()) list.push_back(scene);
+  return list;
+}
+
 struct Cancel {
   size_t calls = 0;
   size_t at = SIZE_MAX;
@@ -67,7 +73,7 @@ static void fail_allocation(const Scene& scene, size_t which, bool from_then) {
 }
 
 TEST_CASE("every allocation may fail") {
-  for (const Scene& scene : scenes::all()) {
+  for (const Scene& scene : fault_scenes()) {
     CAPTURE(scene.name);
     Run whole;
     REQUIRE(whole(scene) == WSK_OK);
@@ -91,7 +97,7 @@ TEST_CASE("every allocation may fail") {
 }
 
 TEST_CASE("the result does not depend on what fresh memory holds") {
-  for (const Scene& scene : scenes::all()) {
+  for (const Scene& scene : fault_scenes()) {
     CAPTURE(scene.name);
     const uint64_t hash = scenes::hash_of(scenes::result_of(scene));  // on malloc
     for (const int pattern : {0x00, 0xff, FaultyAllocator::k_small_numbers}) {
@@ -105,7 +111,7 @@ TEST_CASE("the result does not depend on what fresh memory holds") {
 }
 
 TEST_CASE("the memory cap holds to the byte") {
-  for (const Scene& scene : scenes::all()) {
+  for (const Scene& scene : fault_scenes()) {
     CAPTURE(scene.name);
     Run whole;
     REQUIRE(whole(scene) == WSK_OK);
@@ -135,7 +141,7 @@ TEST_CASE("the memory cap holds to the byte") {
 }
 
 TEST_CASE("every checkpoint may cancel") {
-  for (const Scene& scene : scenes::all()) {
+  for (const Scene& scene : fault_scenes()) {
     CAPTURE(scene.name);
     Run whole;
     REQUIRE(whole(scene) == WSK_OK);

@@ -174,6 +174,56 @@ std::vector<Scene> all() {
   return {octants(), saddle(), band(), noisy()};
 }
 
+// In the plane of height z; normals point away from the axis or up.
+static Curve ring(double x, double y, double z, double radius, bool outward) {
+  Curve curve;
+  curve.closed = curve.boundary = true;
+  for (const Point2& p : circle(8)) {
+    const std::array<double, 3> up = {0.0, 0.0, 1.0}, out = {p.x, p.y, 0.0};
+    add_sample(curve, {x + radius * p.x, y + radius * p.y, z}, outward ? out : up, WSK_NONE);
+  }
+  return curve;
+}
+
+static Scene disc() {
+  Scene scene;
+  scene.name = "disc";
+  scene.spacing = 0.25;
+  scene.method = WSK_METHOD_FAIR;
+  scene.curves = {ring(0.0, 0.0, 0.0, 1.0, false), ring(-0.4, -0.3, 0.0, 0.25, false)};
+  Curve line, point;
+  for (int i = 0; i <= 6; ++i) {
+    const double t = (i - 3) / 3.0;
+    add_sample(line, {0.3 * t, 0.4, 0.1 * (1.0 - t * t)}, {0.0, 0.0, 1.0}, WSK_NONE);
+  }
+  add_sample(point, {0.4, -0.3, 0.1}, {0.0, 0.0, 1.0}, WSK_NONE);
+  scene.curves.push_back(line);
+  scene.curves.push_back(point);
+  return scene;
+}
+
+std::vector<Scene> unusual() {
+  Scene tube, globe, part = disc();
+  tube.name = "tube";
+  tube.spacing = 0.25;
+  tube.method = WSK_METHOD_FAIR;
+  tube.curves = {ring(0.0, 0.0, -0.5, 1.0, true), ring(0.0, 0.0, 0.5, 1.0, true)};
+  globe.name = "globe";
+  globe.spacing = 0.25;
+  globe.method = WSK_METHOD_FAIR;
+  globe.curves = {ring(0.0, 0.0, 0.0, 1.0, true)};
+  globe.curves[0].boundary = false;
+  part.name = "part";
+  part.partial = true;
+  Curve eight;  // crosses itself
+  eight.closed = eight.boundary = true;
+  for (const Point2& p : circle(8)) {
+    add_sample(eight, {5.0 + p.x * p.y, 0.4 * p.x + 0.1 * p.y, 0.0}, {0.0, 0.0, 1.0}, WSK_NONE);
+  }
+  part.curves.push_back(eight);
+  return {tube, globe, disc(), part};
+}
+
 std::vector<wsk_curve> curves_of(const Scene& scene) {
   std::vector<wsk_curve> curves;
   for (const Curve& from : scene.curves) {
@@ -205,6 +255,7 @@ wsk_options options_of(const Scene& scene) {
   wsk_options_init(&options, sizeof options);
   options.spacing = scene.spacing;
   options.method = scene.method;
+  options.partial = scene.partial ? 1 : 0;
   return options;
 }
 

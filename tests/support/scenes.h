@@ -29,6 +29,7 @@ struct Scene {
   std::vector<Curve> curves;
   double spacing = 0.0;
   wsk_method method = WSK_METHOD_STANKO;
+  bool partial = false;
 
   std::vector<double> positions;
   std::vector<double> normals;
@@ -47,6 +48,10 @@ Scene band();
 Scene noisy();
 // octants(), saddle(), band() and noisy().
 std::vector<Scene> all();
+
+// Patches that are no disc in a plane: a tube between two circles, a globe round one, a disc with a
+// hole, a dangling curve and a point in it, and that disc beside a folded patch that is left out.
+std::vector<Scene> unusual();
 
 // Three closed curves on an ellipsoid with unequal axes, unevenly sampled: no symmetry within a
 // patch, so the topology does not hang on how ties are broken.
