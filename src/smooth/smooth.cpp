@@ -84,8 +84,24 @@ static Status estimate_bare_normals(Context& context, const Domain& domain, cons
   return {};
 }
 
+static void make_unit(const Domain& domain, const Field& field) {
+  for (size_t v = 0; v < domain.held.size(); ++v) {
+    if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
+  }
+}
+
+// In the planes there are no conormals.
+static Status aim_at_conormals(Context& context, const Domain& domain, const Field& field,
+                               Guided* guided) {
+  if (domain.metric == Metric::space) {
+    TRY(add_conormals(context, domain, field, guided->conormal.span()));
+  }
+  for (size_t v = 0; v < guided->target.size(); ++v) guided->target[v] = -guided->conormal[v];
+  return {};
+}
+
 // Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor
-// serves both; soft ones pull normals and positions by springs of their own.
+// and one sweep serve both; soft ones pull normals and positions by springs of their own.
 static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
                         double* residual) {
   const size_t n = field.position.size();
@@ -93,24 +109,25 @@ static Status propagate(Context& context, const Domain& domain, const Field& fie
   if (!domain.bare.empty()) {
     TRY(estimate_bare_normals(context, domain, field, guided, residual));
   }
-  TRY(guided->conormal.assign(n, Vec3{}));
-  TRY(guided->target.resize(n));
   TRY(penalties(domain, 2, true, &penalty));
   TRY(guided->system.factor(guided->weight.span(), penalty.span()));
-  TRY(guided->system.solve({}, domain.soft.normal, field.normal, residual));
-  for (size_t v = 0; v < n; ++v) {
-    if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
+  TRY(guided->conormal.assign(n, Vec3{}));
+  TRY(guided->target.resize(n));
+  const Field3 normals = {{}, domain.soft.normal, field.normal};
+  const Field3 positions = {guided->target.span(), domain.soft.position, field.position};
+  if (!domain.soft.any()) {  // the normals along borders are known
+    TRY(aim_at_conormals(context, domain, field, guided));
+    const Field3 both[] = {normals, positions};
+    TRY(guided->system.solve({both, 2}, residual));
+    make_unit(domain, field);
+    return {};
   }
-  if (domain.metric == Metric::space) {
-    TRY(add_conormals(context, domain, field, guided->conormal.span()));
-  }
-  for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
-  if (domain.soft.any()) {
-    TRY(penalties(domain, 2, false, &penalty));
-    TRY(guided->system.factor(guided->weight.span(), penalty.span()));
-  }
-  return guided->system.solve(guided->target.span(), domain.soft.position, field.position,
-                              residual);
+  TRY(guided->system.solve({&normals, 1}, residual));
+  make_unit(domain, field);
+  TRY(aim_at_conormals(context, domain, field, guided));
+  TRY(penalties(domain, 2, false, &penalty));
+  TRY(guided->system.factor(guided->weight.span(), penalty.span()));
+  return guided->system.solve({&positions, 1}, residual);
 }
 
 // The final fit: Laplacians of the propagated curvature as targets, everywhere (the paper's method)

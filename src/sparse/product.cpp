@@ -21,6 +21,10 @@ struct Factors {
   const Csc& b;
   Span<const uint32_t> unknown;
   Part part;
+
+  // Rows ascend and unknowns are numbered along with them, so a column of the lower part reads the
+  // columns of A from their ends up to its own row.
+  bool ends_at(uint32_t row, uint32_t column) const { return part == Part::lower && row < column; }
 };
 
 }  // namespace
@@ -42,9 +46,10 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
     const uint32_t inner = factors.b.row[q];
     *work += factors.a.start[inner + 1] - factors.a.start[inner];
     const double scale = factors.weight[inner] * factors.b.value[q];
-    for (uint32_t p = factors.a.start[inner]; p < factors.a.start[inner + 1]; ++p) {
+    for (uint32_t p = factors.a.start[inner + 1]; p-- > factors.a.start[inner];) {
+      if (factors.ends_at(factors.a.row[p], column)) break;
       const uint32_t i = factors.unknown[factors.a.row[p]];
-      if (i == k_none || (factors.part == Part::lower && i < j)) continue;
+      if (i == k_none) continue;
       if (gathered->mark[i] != j) {
         gathered->mark[i] = j;
         gathered->sum[i] = 0.0;
@@ -66,9 +71,10 @@ static Status count_columns(const Factors& factors, Span<uint32_t> mark, Csc* pr
     for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
       const uint32_t inner = factors.b.row[q];
       work += factors.a.start[inner + 1] - factors.a.start[inner];
-      for (uint32_t p = factors.a.start[inner]; p < factors.a.start[inner + 1]; ++p) {
+      for (uint32_t p = factors.a.start[inner + 1]; p-- > factors.a.start[inner];) {
+        if (factors.ends_at(factors.a.row[p], column)) break;
         const uint32_t i = factors.unknown[factors.a.row[p]];
-        if (i == k_none || mark[i] == j || (factors.part == Part::lower && i < j)) continue;
+        if (i == k_none || mark[i] == j) continue;
         mark[i] = j;
         ++total;
       }
