@@ -15,10 +15,11 @@ struct Start {
   Span<const mesh::TriangleShape> shape;
   smooth::Metric metric;
   Span<const uint8_t> on_border;
-  // Of each vertex: roughly where it will stand (for the order of elimination), and exactly where it
-  // starts if it is placed.
+  // Of each vertex: roughly where it will stand (for the order of elimination), and exactly where
+  // it starts if it is placed.
   Span<const Vec3> position = {};
-  Span<const uint8_t> placed = {};  // free vertices; empty: none
+  Span<const uint8_t> placed = {};              // free vertices; empty: none
+  Array<mesh::TriangleShape>* spent = nullptr;  // what `shape` views, if it may be given back
 };
 
 // Neighbours, the check of the mesh, and the counts that follow from them.
