@@ -6,8 +6,19 @@
 
 namespace wireskin::smooth {
 
-// y = A x for a symmetric matrix with both halves stored: column j is row j.
+// y = A x for a symmetric matrix with both halves stored: column j is row j. Where most of x is
+// zero, as on meshes of which only the curves are known, the columns of the others are spared.
 static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+  size_t zeros = 0;
+  for (const Vec3& v : x) zeros += v == Vec3{};
+  if (4 * zeros > 3 * x.size()) {
+    for (Vec3& v : y) v = Vec3{};
+    for (uint32_t j = 0; j < a.cols; ++j) {
+      if (x[j] == Vec3{}) continue;
+      for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
+    }
+    return;
+  }
   for (uint32_t j = 0; j < a.cols; ++j) {
     Vec3 sum;
     for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
