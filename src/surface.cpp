@@ -167,13 +167,16 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
 
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
-                       patches.start.span(), patches.placed.span(),  inner_edge.span()};
+                       patches.start.span(), patches.placed.span(),  inner_edge.span(),
+                       &patches.shape};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
                                    surface->position.span(), &creased));
     TRY(smooth_creased(context, start, constraints, settings.method, &creased, surface));
   } else {
+    patches.triangle.free();  // the surface has its own
+    patches.patch.free();
     TRY(smooth_surface(context, start, constraints, settings.method, surface));
   }
   TRY(verify_surface(context, network, surface->position.span(), *surface));

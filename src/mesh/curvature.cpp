@@ -46,6 +46,9 @@ static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> k
 
 Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const uint8_t> on_border,
                    Span<double> values) {
+  bool any = false;
+  for (uint8_t border : on_border) any = any || border != 0;
+  if (!any) return {};
   Array<uint8_t> known(context);
   Array<Mean> mean(context);
   TRY(known.resize(values.size()));

@@ -60,17 +60,24 @@ AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
 Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
                        Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
                        AngleStatistics* dihedral) {
-  Array<uint32_t> twins(context);
-  TRY(find_twins(static_cast<uint32_t>(positions.size()), triangles, &twins));
+  // Edges of curves have both ends on curves, and so have their triangles: the others are left out.
+  Array<uint32_t> twins(context), corner(context), own_patch(context);
+  for (size_t t = 0; 3 * t < triangles.size(); ++t) {
+    const uint32_t* v = &triangles[3 * t];
+    if (on_curve[v[0]] + on_curve[v[1]] + on_curve[v[2]] < 2) continue;
+    for (size_t k = 0; k < 3; ++k) TRY(corner.push(v[k]));
+    TRY(own_patch.push(patch[t]));
+  }
+  TRY(find_twins(static_cast<uint32_t>(positions.size()), corner.span(), &twins));
   const auto face = [&](uint32_t h) {
-    const uint32_t* v = &triangles[h / 3 * 3];
+    const uint32_t* v = &corner[h / 3 * 3];
     return cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
   };
   AngleSum sum;
   for (uint32_t h = 0; h < twins.size(); ++h) {
     const uint32_t g = twins[h];
-    if (g == k_none || g < h || (divided && patch[h / 3] == patch[g / 3])) continue;
-    if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
+    if (g == k_none || g < h || (divided && own_patch[h / 3] == own_patch[g / 3])) continue;
+    if (!on_curve[corner[h]] || !on_curve[corner[next_half_edge(h)]]) continue;
     sum.add(angle_between(face(h), face(g)));
   }
   *dihedral = sum.statistics();

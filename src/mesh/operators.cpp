@@ -93,15 +93,24 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   TRY(column.sum.resize(vertices));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
-  // A column has its diagonal and at most two entries a triangle.
-  const size_t most = size_t{vertices} + 2 * triangles.size();
-  if (most >= k_none) return fail(Code::too_large, "the mesh is too large for 32-bit indices");
-  TRY(laplacian->row.reserve(most));
-  TRY(laplacian->value.reserve(most));
+  // Twice the edges and the diagonal, as long as no more than a few edges are on borders.
+  size_t room = size_t{vertices} + triangles.size() + triangles.size() / 32;
+  if (size_t{vertices} + 2 * triangles.size() >= k_none) {
+    return fail(Code::too_large, "the mesh is too large for 32-bit indices");
+  }
+  TRY(laplacian->row.reserve(room));
+  TRY(laplacian->value.reserve(room));
   laplacian->row.clear();
   laplacian->value.clear();
   for (uint32_t v = 0; v < vertices; ++v) {
     laplacian->start[v] = static_cast<uint32_t>(laplacian->row.size());
+    // A column has its diagonal and at most two entries a triangle.
+    const size_t most = laplacian->row.size() + 1 + size_t{2} * (start[v + 1] - start[v]);
+    if (most > room) {
+      room = most + most / 8;
+      TRY(laplacian->row.reserve(room));
+      TRY(laplacian->value.reserve(room));
+    }
     add_to_column(v, v, 0.0, &column, laplacian);
     for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
       const uint32_t h = corner[k], next = next_half_edge(h), previous = previous_half_edge(h);

@@ -295,7 +295,7 @@ Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const
                                              Span<const double> rhs, Span<double> solution,
                                              bool* solved) {
   // A factorisation costs as much as some sixty solves.
-  const sparse::CgOptions options = {1e-9, 40};
+  const sparse::CgOptions options = {1e-10, 40};
   sparse::CgResult result;
   NormalEquations equations(context_, rows, weight);
   TRY(equations.image.resize(rows.rows));
@@ -339,6 +339,12 @@ Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const s
   TRY(context_.enter(Stage::factor));
   TRY(order_unknowns(input, matrix, &order));
   TRY(factor_.analyse(matrix, order.span()));
+  order.free();
+  matrix.row.free();
+  if (factor_.factor_bytes() > context_.room_bytes()) {
+    return fail(Code::memory_cap,
+                "the memory cap leaves no room for the factor of the fairing; `stanko` needs less");
+  }
   Status factored = factor_.factor(matrix);
   factored.place = {};  // a column of ours means nothing to the caller
   TRY(factored);

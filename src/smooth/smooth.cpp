@@ -84,31 +84,47 @@ static Status estimate_bare_normals(Context& context, const Domain& domain, cons
   return {};
 }
 
+static void make_unit(const Domain& domain, const Field& field) {
+  for (size_t v = 0; v < domain.held.size(); ++v) {
+    if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
+  }
+}
+
+// In the planes there are no conormals, and nothing to aim at.
+static Status aim_at_conormals(Context& context, const Domain& domain, const Field& field,
+                               Guided* guided) {
+  if (domain.metric == Metric::planes) return {};
+  const size_t n = field.position.size();
+  TRY(guided->conormal.assign(n, Vec3{}));
+  TRY(guided->target.resize(n));
+  TRY(add_conormals(context, domain, field, guided->conormal.span()));
+  for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
+  return {};
+}
+
 // Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor
-// serves both; soft ones pull normals and positions by springs of their own.
+// and one sweep serve both; soft ones pull normals and positions by springs of their own.
 static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
                         double* residual) {
-  const size_t n = field.position.size();
   Array<double> penalty(context);
   if (!domain.bare.empty()) {
     TRY(estimate_bare_normals(context, domain, field, guided, residual));
   }
-  TRY(guided->conormal.assign(n, Vec3{}));
-  TRY(guided->target.resize(n));
   TRY(penalties(domain, 2, true, &penalty));
   TRY(guided->system.factor(guided->weight.span(), penalty.span()));
-  TRY(guided->system.solve({}, domain.soft.normal, field.normal, residual));
-  for (size_t v = 0; v < n; ++v) {
-    if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
+  const Field3 normals = {{}, domain.soft.normal, field.normal};
+  if (!domain.soft.any()) {  // the normals along borders are known
+    TRY(aim_at_conormals(context, domain, field, guided));
+    const Field3 both[] = {normals, {guided->target.span(), {}, field.position}};
+    TRY(guided->system.solve({both, 2}, residual));
+    make_unit(domain, field);
+    return {};
   }
-  if (domain.metric == Metric::space) {
-    TRY(add_conormals(context, domain, field, guided->conormal.span()));
-  }
-  for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
-  if (domain.soft.any()) {
-    TRY(penalties(domain, 2, false, &penalty));
-    TRY(guided->system.factor(guided->weight.span(), penalty.span()));
-  }
+  TRY(guided->system.solve({&normals, 1}, residual));
+  make_unit(domain, field);
+  TRY(aim_at_conormals(context, domain, field, guided));
+  TRY(penalties(domain, 2, false, &penalty));
+  TRY(guided->system.factor(guided->weight.span(), penalty.span()));
   return guided->system.solve(guided->target.span(), domain.soft.position, field.position,
                               residual);
 }
@@ -118,10 +134,13 @@ static Status propagate(Context& context, const Domain& domain, const Field& fie
 static Status fit(Context& context, const Domain& domain, Method method, const Field& field,
                   Guided* guided, double* residual) {
   const bool clamped = method == Method::clamped;
+  const bool has_conormals = !guided->conormal.empty();
+  TRY(guided->target.resize(field.position.size()));
   for (size_t v = 0; v < field.position.size(); ++v) {
     const bool guides = !clamped || domain.on_curve[v];
     const double scale = guides ? -2.0 * guided->area[v] * guided->curvature[v] : 0.0;
-    guided->target[v] = scale * field.normal[v] - guided->conormal[v];
+    guided->target[v] = scale * field.normal[v];
+    if (has_conormals) guided->target[v] -= guided->conormal[v];
     if (clamped && domain.on_curve[v]) guided->weight[v] *= k_clamp_penalty;
   }
   if (clamped) {
@@ -144,6 +163,7 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
   TRY(guided.area.resize(n));
   TRY(guided.weight.resize(n));
   mesh::mixed_voronoi_areas(domain.triangle, domain.shape, guided.area.span());
+  if (domain.spent != nullptr) domain.spent->free();
   row_weights(domain, uses_normals && domain.metric == Metric::space, guided.area.span(),
               guided.weight.span());
   const Order order = method == Method::triharmonic ? Order::three : Order::two;

@@ -44,7 +44,8 @@ struct Domain {
   // Held vertices on open borders whose normal is not known (any value): that of the surface as far
   // as it is found stands for it. Empty: none.
   Span<const uint8_t> bare = {};
-  Places places = {};  // for the order of elimination
+  Places places = {};                           // for the order of elimination
+  Array<mesh::TriangleShape>* spent = nullptr;  // given back once `shape`, its view, has been read
 };
 
 // Position and normal of every vertex: in, those of the held ones; out, all.

@@ -6,8 +6,19 @@
 
 namespace wireskin::smooth {
 
-// y = A x for a symmetric matrix with both halves stored: column j is row j.
+// y = A x for a symmetric matrix with both halves stored: column j is row j. Where most of x is
+// zero, as on meshes of which only the curves are known, the columns of the others are spared.
 static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+  size_t zeros = 0;
+  for (const Vec3& v : x) zeros += v == Vec3{};
+  if (4 * zeros > 3 * x.size()) {
+    for (Vec3& v : y) v = Vec3{};
+    for (uint32_t j = 0; j < a.cols; ++j) {
+      if (x[j] == Vec3{}) continue;
+      for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
+    }
+    return;
+  }
   for (uint32_t j = 0; j < a.cols; ++j) {
     Vec3 sum;
     for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
@@ -59,9 +70,7 @@ Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, 
       patch_.push_reserved(places.patch[v]);
     }
   }
-  TRY(rhs_.resize(size_t{3} * unknowns_));
-  TRY(solution_.resize(size_t{3} * unknowns_));
-  return work_.resize(size_t{3} * unknowns_);
+  return {};
 }
 
 // Columns begin with their diagonal.
@@ -84,7 +93,7 @@ Status System::analyse() {
     TRY(find_order(matrix_, &order));
     TRY(factor_.analyse(matrix_, order.span()));
   }
-  if (order_ == Order::two && factor_.factor_bytes() > context.room_bytes()) {
+  if (order_ != Order::one && factor_.factor_bytes() > context.room_bytes()) {
     TRY(prepare_iteration());
   }
   place_.free();
@@ -107,39 +116,41 @@ Status System::prepare_iteration() {
   return factor_.factor(part);
 }
 
-// y = (L_ff W L_ff)^-1 x.
-Status System::apply_laplacian_pair(void* self, Span<const double> x, Span<double> y) {
+// y = (L_ff W L_ff)^-1 x, for order 3 (L_ff W L_ff W L_ff)^-1 x up to the sign.
+Status System::apply_laplacian_inverses(void* self, Span<const double> x, Span<double> y) {
   System& system = *static_cast<System*>(self);
   for (size_t i = 0; i < x.size(); ++i) y[i] = x[i];
-  TRY(system.factor_.solve(y, 1));
-  for (size_t v = 0; v < system.weight_.size(); ++v) {
-    const uint32_t i = system.unknown_[v];
-    if (i != k_none && system.weight_[v] > 0.0) y[i] /= system.weight_[v];
+  for (int k = 1; k < static_cast<int>(system.order_); ++k) {
+    TRY(system.factor_.solve(y, 1));
+    for (size_t v = 0; v < system.weight_.size(); ++v) {
+      const uint32_t i = system.unknown_[v];
+      if (i != k_none && system.weight_[v] > 0.0) y[i] /= system.weight_[v];
+    }
   }
   return system.factor_.solve(y, 1);
 }
 
-// Solves for the three right-hand sides one after the other.
-Status System::iterate() {
+// Solves for the right-hand sides one after the other.
+Status System::iterate(size_t columns) {
   const sparse::CgOptions options = {1e-11, 2000};
   Context& context = weight_.context();
   Array<double> b(context), x(context);
   TRY(b.resize(unknowns_));
   TRY(x.resize(unknowns_));
-  for (size_t c = 0; c < 3; ++c) {
+  for (size_t c = 0; c < columns; ++c) {
     for (size_t i = 0; i < unknowns_; ++i) {
-      b[i] = rhs_[3 * i + c];
+      b[i] = block_[columns * i + c];
       x[i] = 0.0;
     }
     sparse::CgResult result;
     TRY(sparse::conjugate_gradients(context, sparse::symmetric_operator(matrix_),
-                                    {&apply_laplacian_pair, this}, b.span(), x.span(), options,
+                                    {&apply_laplacian_inverses, this}, b.span(), x.span(), options,
                                     &result));
     context.count_iterations(result.iterations);
     if (!(result.residual <= 1e-6)) {
       return fail(Code::memory_cap, "the memory cap leaves no room for the factor of the system");
     }
-    for (size_t i = 0; i < unknowns_; ++i) solution_[3 * i + c] = x[i];
+    for (size_t i = 0; i < unknowns_; ++i) block_[columns * i + c] = x[i];
   }
   return {};
 }
@@ -176,92 +187,98 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
     TRY(analyse());
   }
   if (iterative_) return {};
+  // The factor is the greatest thing in memory: what it does not need goes before it, or after.
+  matrix_.row.free();
   Status factored = factor_.factor(matrix_);
+  matrix_.value.free();
   factored.place = {};  // a column of ours means nothing to the caller
   return factored;
 }
 
-void System::store_right_hand_side(Span<const Vec3> values) {
-  for (size_t v = 0; v < values.size(); ++v) {
-    if (unknown_[v] == k_none) continue;
-    double* row = &rhs_[size_t{3} * unknown_[v]];
-    row[0] = values[v].x, row[1] = values[v].y, row[2] = values[v].z;
-  }
-}
-
-// L W (T - L v) at the free vertices, v with the free values at zero; for order 3, L W L W L v.
-Status System::right_hand_side(Span<const Vec3> target, Span<const Vec3> value) {
+// Minus the gradients of the energies at the values that the fields have, among the unknowns, and
+// the square of each column: L W (T - L v), for order 1 L v, for order 3 L W L W L v. With the free
+// values at zero these are the right-hand sides, with a solution its residuals.
+Status System::find_gradients(Span<const Field3> fields, double* squares) {
   Context& context = weight_.context();
+  const size_t columns = 3 * fields.size(), n = unknown_.size();
   Array<Vec3> a(context), b(context);
-  TRY(a.resize(value.size()));
-  TRY(b.resize(value.size()));
-  for (size_t v = 0; v < value.size(); ++v) a[v] = unknown_[v] == k_none ? value[v] : Vec3{};
-  multiply_vectors(*laplacian_, a.span(), b.span());
-  if (order_ == Order::one) {
-    store_right_hand_side(b.span());
-    return {};
+  TRY(a.resize(n));
+  TRY(b.resize(n));
+  for (size_t f = 0; f < fields.size(); ++f) {
+    const Field3& field = fields[f];
+    multiply_vectors(*laplacian_, field.value, a.span());
+    for (int k = 1; k < static_cast<int>(order_); ++k) {
+      const bool aims = k == 1 && !field.target.empty();
+      for (size_t v = 0; v < n; ++v) b[v] = weight_[v] * (aims ? field.target[v] - a[v] : -a[v]);
+      multiply_vectors(*laplacian_, b.span(), a.span());
+    }
+    Vec3 sum;
+    for (size_t v = 0; v < n; ++v) {
+      if (unknown_[v] == k_none) continue;
+      Vec3 g = a[v];
+      if (!penalty_.empty() && penalty_[v] != 0.0) {
+        g += penalty_[v] * (field.anchor[v] - field.value[v]);
+      }
+      double* row = &block_[columns * unknown_[v] + 3 * f];
+      row[0] = g.x, row[1] = g.y, row[2] = g.z;
+      sum += Vec3{g.x * g.x, g.y * g.y, g.z * g.z};
+    }
+    squares[3 * f] = sum.x, squares[3 * f + 1] = sum.y, squares[3 * f + 2] = sum.z;
+    TRY(context.checkpoint());
   }
-  for (size_t v = 0; v < value.size(); ++v) {
-    const Vec3 missing = target.empty() ? -b[v] : target[v] - b[v];
-    b[v] = weight_[v] * missing;
-  }
-  multiply_vectors(*laplacian_, b.span(), a.span());
-  if (order_ == Order::three) {
-    for (size_t v = 0; v < value.size(); ++v) b[v] = -weight_[v] * a[v];
-    multiply_vectors(*laplacian_, b.span(), a.span());
-  }
-  store_right_hand_side(a.span());
   return {};
 }
 
-// What the solution leaves of the right-hand side, and its size relative to that, the greatest of
-// the three columns.
-double System::residual_of(Span<double> residual) const {
-  sparse::multiply_symmetric(matrix_, solution_.span(), residual, 3);
-  double left[3] = {}, whole[3] = {};
-  for (size_t i = 0; i < residual.size(); ++i) {
-    residual[i] = rhs_[i] - residual[i];
-    left[i % 3] += residual[i] * residual[i];
-    whole[i % 3] += rhs_[i] * rhs_[i];
+void System::add_solutions(Span<const Field3> fields) const {
+  const size_t columns = 3 * fields.size();
+  for (size_t v = 0; v < unknown_.size(); ++v) {
+    if (unknown_[v] == k_none) continue;
+    const double* row = &block_[columns * unknown_[v]];
+    for (const Field3& field : fields) {
+      field.value[v] += Vec3{row[0], row[1], row[2]};
+      row += 3;
+    }
   }
+}
+
+static double greatest_ratio(const double* left, const double* whole, size_t columns) {
   double worst = 0.0;
-  for (int c = 0; c < 3; ++c) {
+  for (size_t c = 0; c < columns; ++c) {
     const double ratio = whole[c] > 0.0 ? std::sqrt(left[c] / whole[c]) : 0.0;
     if (!(ratio <= worst)) worst = ratio;  // not a number stays
   }
   return worst;
 }
 
-Status System::solve(Span<const Vec3> target, Span<const Vec3> anchor, Span<Vec3> value,
-                     double* residual) {
+Status System::solve(Span<const Field3> fields, double* residual) {
+  constexpr size_t k_most = 2;
+  double whole[3 * k_most], left[3 * k_most];
+  const size_t columns = 3 * fields.size();
+  WIRESKIN_ASSERT(fields.size() <= k_most);
   TRY(weight_.context().enter(Stage::solve));
   *residual = 0.0;
   if (unknowns_ == 0) return {};
-  TRY(right_hand_side(target, value));
-  for (size_t v = 0; v < penalty_.size(); ++v) {
-    if (unknown_[v] == k_none || penalty_[v] == 0.0) continue;
-    double* row = &rhs_[size_t{3} * unknown_[v]];
-    row[0] += penalty_[v] * anchor[v].x;
-    row[1] += penalty_[v] * anchor[v].y;
-    row[2] += penalty_[v] * anchor[v].z;
+  for (const Field3& field : fields) {
+    for (size_t v = 0; v < unknown_.size(); ++v) {
+      if (unknown_[v] != k_none) field.value[v] = Vec3{};
+    }
   }
+  TRY(block_.resize(columns * unknowns_));
+  TRY(find_gradients(fields, whole));
   if (iterative_) {
-    TRY(iterate());
+    TRY(iterate(columns));
   } else {
-    TRY(solution_.copy(rhs_.span()));
-    TRY(factor_.solve(solution_.span(), 3));
+    TRY(factor_.solve(block_.span(), static_cast<uint32_t>(columns)));
   }
-  *residual = residual_of(work_.span());
+  add_solutions(fields);
+  TRY(find_gradients(fields, left));
+  *residual = greatest_ratio(left, whole, columns);
   const double good = unknowns_ <= 30000 ? 1e-12 : unknowns_ <= 300000 ? 1e-11 : 1e-10;
   if (!iterative_ && *residual > good) {  // one step of iterative refinement
-    TRY(factor_.solve(work_.span(), 3));
-    for (size_t i = 0; i < work_.size(); ++i) solution_[i] += work_[i];
-    *residual = residual_of(work_.span());
-  }
-  for (size_t v = 0; v < value.size(); ++v) {
-    if (unknown_[v] == k_none) continue;
-    const double* row = &solution_[size_t{3} * unknown_[v]];
-    value[v] = {row[0], row[1], row[2]};
+    TRY(factor_.solve(block_.span(), static_cast<uint32_t>(columns)));
+    add_solutions(fields);
+    TRY(find_gradients(fields, left));
+    *residual = greatest_ratio(left, whole, columns);
   }
   return {};
 }

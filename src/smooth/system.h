@@ -6,11 +6,11 @@
 // minimises the Dirichlet energy of W L v, with L W (-L) W L (targets zero). L is the integrated
 // cotangent Laplacian, w the inverse vertex areas; a weight of zero leaves a row out. K is positive
 // definite when every component holds a vertex and the free rows stay in. One factor serves any
-// number of right-hand sides; new weights keep the ordering and the symbolic analysis. Where the
-// factor of K would not fit under the memory cap, conjugate gradients take its place, with the
-// inverse of L_ff W^-1 L_ff as preconditioner: the factor of L_ff is a quarter of K's. Cost: see
-// sparse/cholesky.h. Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform
-// Modeling", 2004.
+// number of fields, several in one sweep; new weights keep the ordering and the symbolic analysis.
+// Where the factor of K would not fit under the memory cap, conjugate gradients take its place,
+// with the inverse of L_ff W^-1 L_ff as preconditioner (order 3: one factor more): the factor of
+// L_ff is a quarter of K's. Order 1 has no way out but the status. Cost: see sparse/cholesky.h.
+// Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004.
 #pragma once
 
 #include "num/vec.h"
@@ -26,6 +26,14 @@ struct Places {
   Span<const uint32_t> patch;
 };
 
+// One vector field to solve for. In: the held values, the target of every row (empty: zero), and
+// where penalties draw to. Out: the free values.
+struct Field3 {
+  Span<const Vec3> target;
+  Span<const Vec3> anchor;
+  Span<Vec3> value;
+};
+
 class System {
  public:
   explicit System(Context& context)
@@ -36,9 +44,7 @@ class System {
         factor_(context),
         weight_(context),
         penalty_(context),
-        rhs_(context),
-        solution_(context),
-        work_(context) {}
+        block_(context) {}
 
   // `laplacian` must outlive the system. Numbers the unknowns. Where the vertices stand decides
   // nothing but the order of elimination; without it that is general and slower.
@@ -47,22 +53,24 @@ class System {
   // Assembles and factors with these row weights, and a penalty for each vertex (empty: none); may
   // be called again.
   Status factor(Span<const double> weight, Span<const double> penalty);
-  // In: the held values, the target of every row (empty: zero), and where penalties draw to. Out:
-  // the free values. `residual`: the greatest relative residual of the three columns after one step
-  // of refinement where needed.
+  // `residual`: the greatest relative residual of all columns, after one step of refinement where
+  // needed.
+  Status solve(Span<const Field3> fields, double* residual);
   Status solve(Span<const Vec3> target, Span<const Vec3> anchor, Span<Vec3> value,
-               double* residual);
+               double* residual) {
+    const Field3 field = {target, anchor, value};
+    return solve({&field, 1}, residual);
+  }
 
  private:
-  Status right_hand_side(Span<const Vec3> target, Span<const Vec3> value);
-  void store_right_hand_side(Span<const Vec3> values);
+  Status find_gradients(Span<const Field3> fields, double* squares);
+  void add_solutions(Span<const Field3> fields) const;
   void add_penalties();
   Status find_order(const sparse::Csc& matrix, Array<uint32_t>* order) const;
   Status analyse();
   Status prepare_iteration();
-  Status iterate();
-  static Status apply_laplacian_pair(void* self, Span<const double> x, Span<double> y);
-  double residual_of(Span<double> residual) const;
+  Status iterate(size_t columns);
+  static Status apply_laplacian_inverses(void* self, Span<const double> x, Span<double> y);
 
   const sparse::Csc* laplacian_ = nullptr;
   Order order_ = Order::two;
@@ -75,8 +83,8 @@ class System {
   sparse::Csc matrix_;
   sparse::Cholesky factor_;
   Array<double> weight_;
-  Array<double> penalty_;                // of each vertex, or empty
-  Array<double> rhs_, solution_, work_;  // three columns, row by row
+  Array<double> penalty_;  // of each vertex, or empty
+  Array<double> block_;    // right-hand sides, then solutions: three columns a field, row by row
 };
 
 }  // namespace wireskin::smooth

@@ -15,9 +15,7 @@ Cholesky::Cholesky(Context& context, Instructions instructions)
       fronts_(context),
       value_(context),
       workspace_(context),
-      scratch_(context),
-      permuted_(context),
-      tail_(context) {}
+      scratch_(context) {}
 
 static void invert_order(Span<const uint32_t> order, Span<uint32_t> position) {
   for (uint32_t k = 0; k < order.size(); ++k) position[order[k]] = k;
@@ -244,33 +242,34 @@ static DiagonalBlock triangle_at(const double* at, size_t step, uint32_t columns
   return d;
 }
 
-// y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S. Transposed, a row of y is a column.
+// y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S: eight columns at a time, so that the panel
+// is read from end to end. Transposed, a row of y is a column.
 void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
-  const size_t step = supernodes_.column_step(s);
+  const size_t step = supernodes_.column_step(s), bytes = lanes * sizeof(double);
   const double* panel = value_.data() + supernodes_.panel[s];
-  double* own = permuted_.data() + size_t{supernodes_.first[s]} * lanes;
-  for (uint32_t j = 0; j < width; j += k_block) {
-    const uint32_t columns = width - j < k_block ? width - j : k_block;
-    double* x = own + size_t{j} * lanes;
-    if (j > 0) {
-      kernels_.update({lanes, columns, j, own, lanes, panel + j, 1, step, x, lanes, false, false},
-                      scratch_.data());
-    }
-    kernels_.solve_block(triangle_at(panel + j * step + j, step, columns, false), lanes, x, lanes);
-  }
-  if (tail == 0) return;
   const uint32_t* rows = supernodes_.rows(s) + width;
-  double* y = permuted_.data();
-  double* below = tail_.data();
-  const size_t bytes = lanes * sizeof(double);
+  double* y = workspace_.data();
+  double* own = y + size_t{supernodes_.first[s]} * lanes;
+  double* below = y + size_t{n_} * lanes;
   for (uint32_t r = 0; r < tail; ++r) {
     std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, bytes);
   }
-  kernels_.update(
-      {lanes, tail, width, own, lanes, panel + width, 1, step, below, lanes, false, false},
-      scratch_.data());
+  for (uint32_t j = 0; j < width; j += k_block) {
+    const uint32_t columns = width - j < k_block ? width - j : k_block;
+    const uint32_t after = j + columns;
+    const double* block = panel + j * step;
+    double* x = own + size_t{j} * lanes;
+    kernels_.solve_block(triangle_at(block + j, step, columns, false), lanes, x, lanes);
+    const auto subtract = [&](uint32_t row, uint32_t count, double* from) {
+      kernels_.update(
+          {lanes, count, columns, x, lanes, block + row, 1, step, from, lanes, false, false},
+          scratch_.data());
+    };
+    if (after < width) subtract(after, width - after, own + size_t{after} * lanes);
+    if (tail > 0) subtract(width, tail, below);
+  }
   for (uint32_t r = 0; r < tail; ++r) {
     std::memcpy(y + size_t{rows[r]} * lanes, below + size_t{r} * lanes, bytes);
   }
@@ -282,13 +281,13 @@ void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
   const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
   const size_t step = supernodes_.column_step(s);
   const double* panel = value_.data() + supernodes_.panel[s];
-  double* own = permuted_.data() + size_t{supernodes_.first[s]} * lanes;
+  double* y = workspace_.data();
+  double* own = y + size_t{supernodes_.first[s]} * lanes;
   if (tail > 0) {
     const uint32_t* rows = supernodes_.rows(s) + width;
-    double* below = tail_.data();
+    double* below = y + size_t{n_} * lanes;
     for (uint32_t r = 0; r < tail; ++r) {
-      std::memcpy(below + size_t{r} * lanes, permuted_.data() + size_t{rows[r]} * lanes,
-                  lanes * sizeof(double));
+      std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, lanes * sizeof(double));
     }
     kernels_.update(
         {lanes, width, tail, below, lanes, panel + width, step, 1, own, lanes, false, false},
@@ -321,11 +320,14 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   if (!factored_) return fail(Code::bad_argument, "there is no factor to solve with");
   WIRESKIN_ASSERT(x.size() == size_t{n_} * columns);
   const uint32_t lanes = round_up_rows(columns);
-  TRY(permuted_.resize(size_t{n_} * lanes));
-  TRY(tail_.resize(size_t{tallest_} * lanes));
+  // The update matrices are done with: their memory holds the right-hand sides in elimination
+  // order, and behind them those of the rows below one supernode.
+  const size_t room = (size_t{n_} + tallest_) * lanes;
+  if (workspace_.size() < room) workspace_.clear();
+  TRY(workspace_.resize(room));
   for (uint32_t k = 0; k < n_; ++k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    double* to = permuted_.data() + size_t{k} * lanes;
+    double* to = workspace_.data() + size_t{k} * lanes;
     for (uint32_t c = 0; c < lanes; ++c) to[c] = c < columns ? from[c] : 0.0;
   }
   size_t work = 0;
@@ -339,7 +341,7 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   }
   for (uint32_t k = 0; k < n_; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = permuted_[size_t{k} * lanes + c];
+    for (uint32_t c = 0; c < columns; ++c) to[c] = workspace_[size_t{k} * lanes + c];
   }
   return {};
 }

@@ -68,10 +68,8 @@ class Cholesky {
   Supernodes supernodes_;
   Fronts fronts_;
   Array<double> value_;      // the panels
-  Array<double> workspace_;  // the update matrices
+  Array<double> workspace_;  // the update matrices; in solve() the right-hand sides
   Array<double> scratch_;    // of the kernels, for each thread
-  Array<double> permuted_;   // the right-hand sides in elimination order
-  Array<double> tail_;       // those of the rows below one supernode
 };
 
 }  // namespace wireskin::sparse

@@ -21,6 +21,10 @@ struct Factors {
   const Csc& b;
   Span<const uint32_t> unknown;
   Part part;
+
+  // Rows ascend and unknowns are numbered along with them, so a column of the lower part reads the
+  // columns of A from their ends up to its own row.
+  bool ends_at(uint32_t row, uint32_t column) const { return part == Part::lower && row < column; }
 };
 
 }  // namespace
@@ -42,9 +46,10 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
     const uint32_t inner = factors.b.row[q];
     *work += factors.a.start[inner + 1] - factors.a.start[inner];
     const double scale = factors.weight[inner] * factors.b.value[q];
-    for (uint32_t p = factors.a.start[inner]; p < factors.a.start[inner + 1]; ++p) {
+    for (uint32_t p = factors.a.start[inner + 1]; p-- > factors.a.start[inner];) {
+      if (factors.ends_at(factors.a.row[p], column)) break;
       const uint32_t i = factors.unknown[factors.a.row[p]];
-      if (i == k_none || (factors.part == Part::lower && i < j)) continue;
+      if (i == k_none) continue;
       if (gathered->mark[i] != j) {
         gathered->mark[i] = j;
         gathered->sum[i] = 0.0;
@@ -55,30 +60,30 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
   }
 }
 
-// The number of entries of each column, by marks alone.
-static Status count_columns(const Factors& factors, Span<uint32_t> mark, Csc* product) {
+// About the number of entries of the product, from every 32nd column.
+static uint64_t estimate_entries(const Factors& factors, Accumulator* gathered, size_t* work) {
+  constexpr uint32_t k_step = 32;
   uint64_t total = 0;
   uint32_t j = 0;
-  size_t work = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
     if (factors.unknown[column] == k_none) continue;
-    product->start[j] = static_cast<uint32_t>(total);
-    for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
-      const uint32_t inner = factors.b.row[q];
-      work += factors.a.start[inner + 1] - factors.a.start[inner];
-      for (uint32_t p = factors.a.start[inner]; p < factors.a.start[inner + 1]; ++p) {
-        const uint32_t i = factors.unknown[factors.a.row[p]];
-        if (i == k_none || mark[i] == j || (factors.part == Part::lower && i < j)) continue;
-        mark[i] = j;
-        ++total;
-      }
+    if (j % k_step == 0) {
+      gather_column(factors, column, j, gathered, work);
+      total += gathered->rows.size();
     }
-    if (total >= k_none) return fail(Code::too_large, "the matrix is too large for 32-bit indices");
     ++j;
-    TRY(pause_for_checkpoint(product->start.context(), &work));
   }
-  product->start[j] = static_cast<uint32_t>(total);
-  return {};
+  return total * k_step;
+}
+
+// Room for one more column, and where there was none, for some more.
+static Status make_room(size_t more, size_t* room, Csc* product) {
+  const size_t least = product->row.size() + more;
+  if (least >= k_none) return fail(Code::too_large, "the matrix is too large for 32-bit indices");
+  if (least <= *room) return {};
+  *room = least + least / 16;
+  TRY(product->row.reserve(*room));
+  return product->value.reserve(*room);
 }
 
 Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
@@ -86,29 +91,30 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   Context& context = product->start.context();
   const Factors factors = {a, weight, b, unknown, part};
   Accumulator gathered(context);
+  size_t work = 0, room = 0;
   TRY(gathered.mark.assign(unknowns, k_none));
   TRY(gathered.sum.resize(unknowns));
   TRY(gathered.rows.reserve(unknowns));
   TRY(product->start.resize(size_t{unknowns} + 1));
-  TRY(count_columns(factors, gathered.mark.span(), product));
-  for (uint32_t& m : gathered.mark) m = k_none;
   product->rows = product->cols = unknowns;
-  TRY(product->row.resize(product->start[unknowns]));
-  TRY(product->value.resize(product->start[unknowns]));
+  product->row.clear();
+  product->value.clear();
+  TRY(make_room(estimate_entries(factors, &gathered, &work), &room, product));
+  for (uint32_t& m : gathered.mark) m = k_none;
   uint32_t j = 0;
-  size_t work = 0;
   for (uint32_t column = 0; column < b.cols; ++column) {
     if (unknown[column] == k_none) continue;
     gather_column(factors, column, j, &gathered, &work);
     sort(gathered.rows.span(), [](uint32_t x, uint32_t y) { return x < y; });
-    const uint32_t first = product->start[j];
-    for (uint32_t k = 0; k < gathered.rows.size(); ++k) {
-      product->row[first + k] = gathered.rows[k];
-      product->value[first + k] = gathered.sum[gathered.rows[k]];
+    TRY(make_room(gathered.rows.size(), &room, product));
+    product->start[j++] = static_cast<uint32_t>(product->row.size());
+    for (const uint32_t i : gathered.rows) {
+      product->row.push_reserved(i);
+      product->value.push_reserved(gathered.sum[i]);
     }
-    ++j;
     TRY(pause_for_checkpoint(context, &work));
   }
+  product->start[unknowns] = static_cast<uint32_t>(product->row.size());
   return {};
 }
 

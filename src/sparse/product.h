@@ -4,7 +4,7 @@
 // In: A and B in compressed columns, a weight for each inner index, and the number that each row
 // and column of the product has among the unknowns (k_none: left out). Out: the product, columns
 // sorted. Entries are summed in ascending inner index. Cost: the multiplications of the product,
-// twice (once to count). Source: F. Gustavson, "Two Fast Algorithms for Sparse Matrices:
+// and a few more to guess its size. Source: F. Gustavson, "Two Fast Algorithms for Sparse Matrices:
 // Multiplication and Permuted Transposition", 1978.
 #pragma once
 

@@ -18,8 +18,9 @@ struct Start {
   // Of each vertex: roughly where it will stand (for the order of elimination), and exactly where
   // it starts if it is placed.
   Span<const Vec3> position = {};
-  Span<const uint8_t> placed = {};       // free vertices; empty: none
-  Span<const uint32_t> inner_edge = {};  // of curves inside patches, two vertices each
+  Span<const uint8_t> placed = {};              // free vertices; empty: none
+  Span<const uint32_t> inner_edge = {};         // of curves inside patches, two vertices each
+  Array<mesh::TriangleShape>* spent = nullptr;  // what `shape` views, if it may be given back
 };
 
 // Neighbours, the check of the mesh, and the counts that follow from them.

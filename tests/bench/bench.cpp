@@ -1,10 +1,14 @@
 // bench [--sizes 10000,100000] [--runs 3] [--threads N] [--methods stanko,fair] [--json FILE]
+//       [--scene grid] [--write PREFIX]
 //       [--matrices PREFIX,PREFIX...] [--which K] [--rig FOLDER] [--peers super-amd,eigen-ldlt]
 //
-// Times the library: the whole of wsk_build with its stages on a network of about so many vertices,
-// and, given matrices of the peers' rig, the solver beside the rig's programs, which it runs in
-// turn. Prints tables of medians and ratios and writes them as JSON. Times are processor time of
-// this process in milliseconds; with --threads, of the wall clock.
+// Times the library: the whole of wsk_build with its stages on a network of about so many vertices
+// (`grid`: five and five curves on a warped square, 16 patches, as in the rig; `ellipsoid`: three
+// curves, 8 patches), and, given matrices of the peers' rig, the solver beside the rig's programs,
+// which it runs in turn, on one thread each. --write makes such a matrix of each size, of the
+// bilaplacian on the finished surface, as PREFIX.SIZE.K.csc with its .xy.vec and .patch.vec. Prints
+// tables of medians and ratios and writes them as JSON. Times are processor time of this process in
+// milliseconds; with --threads, of the wall clock.
 #include <time.h>
 
 #include <algorithm>
@@ -20,9 +24,11 @@
 #include <stdexcept>
 #include <thread>
 
+#include "mesh/operators.h"
 #include "rig.h"
 #include "sparse/cholesky.h"
 #include "sparse/nested_dissection.h"
+#include "sparse/product.h"
 #include "support/scenes.h"
 
 namespace {
@@ -36,7 +42,7 @@ struct Options {
   std::vector<std::string> methods = {"stanko", "fair"};
   std::vector<std::string> matrices;
   std::vector<std::string> peers = {"super-amd", "eigen-ldlt"};
-  std::string rig, json, which = "K";
+  std::string rig, json, which = "K", scene = "grid", write;
   int runs = 3;
   uint32_t threads = 1;
 };
@@ -116,7 +122,38 @@ void print(const std::string& title, const Table& table) {
 
 // ---- The pipeline -------------------------------------------------------------------------------
 
-wsk_report build(const scenes::Scene& scene, double spacing, wsk_method method) {
+// One of the rig's curves: a line x or y = fixed / 4 of the unit square, lifted.
+scenes::Curve grid_line(bool along_x, uint32_t fixed) {
+  constexpr uint32_t k_samples = 64;
+  scenes::Curve curve;
+  curve.boundary = fixed % 4 == 0;
+  for (uint32_t i = 0; i <= k_samples; ++i) {
+    const double moving = static_cast<double>(i) / k_samples, still = fixed / 4.0;
+    const double x = along_x ? moving : still, y = along_x ? still : moving;
+    const uint32_t at = i / (k_samples / 4);
+    const bool crosses = i % (k_samples / 4) == 0;
+    const double slope_x = 0.6 * x + 0.2 * y * y, slope_y = 0.4 * x * y - 0.3;
+    curve.positions.insert(curve.positions.end(), {x, y, 0.3 * x * x + 0.2 * x * y * y - 0.3 * y});
+    curve.normals.insert(curve.normals.end(), {-slope_x, -slope_y, 1.0});
+    curve.nodes.push_back(!crosses ? WSK_NONE : along_x ? 5 * fixed + at : 5 * at + fixed);
+  }
+  return curve;
+}
+
+scenes::Scene scene_named(const std::string& name) {
+  if (name == "ellipsoid") return scenes::ellipsoid();
+  if (name != "grid") throw std::runtime_error("no scene " + name);
+  scenes::Scene scene;
+  scene.spacing = 0.05;
+  for (uint32_t fixed = 0; fixed < 5; ++fixed) {
+    scene.curves.push_back(grid_line(true, fixed));
+    scene.curves.push_back(grid_line(false, fixed));
+  }
+  return scene;
+}
+
+wsk_report build(const scenes::Scene& scene, double spacing, wsk_method method,
+                 scenes::Result* result = nullptr) {
   wsk_options options = scenes::options_of(scene);
   options.spacing = spacing;
   options.method = method;
@@ -129,18 +166,23 @@ wsk_report build(const scenes::Scene& scene, double spacing, wsk_method method) 
   if (scenes::run(scene, options, &surface, &report) != WSK_OK) {
     throw std::runtime_error(report.sentence);
   }
+  if (result != nullptr) *result = scenes::copy_of(surface);
   wsk_surface_free(surface);
   return report;
+}
+
+// The vertices grow with the inverse square of the spacing.
+double spacing_for(const scenes::Scene& scene, double size) {
+  const wsk_report coarse = build(scene, scene.spacing / 4, WSK_METHOD_STANKO);
+  return coarse.spacing * std::sqrt(coarse.vertices / size);
 }
 
 void time_pipeline(const Options& options, double size, const std::string& method, Json* json) {
   const char* const stages[] = {"input",     "curves", "network", "patches",
                                 "operators", "factor", "solve",   "result"};
   const wsk_method number = method == "fair" ? WSK_METHOD_FAIR : WSK_METHOD_STANKO;
-  const scenes::Scene scene = scenes::ellipsoid();
-  // The vertices grow with the inverse square of the spacing.
-  const wsk_report coarse = build(scene, scene.spacing / 4, WSK_METHOD_STANKO);
-  const double spacing = coarse.spacing * std::sqrt(coarse.vertices / size);
+  const scenes::Scene scene = scene_named(options.scene);
+  const double spacing = spacing_for(scene, size);
   Table table;
   for (int run = 0; run < options.runs; ++run) {
     const double start = now();
@@ -165,6 +207,45 @@ void* plain_allocate(size_t bytes, void*) {
 }
 void plain_release(void* memory, size_t, void*) {
   std::free(memory);
+}
+
+// K = L M^-1 L on the vertices between the curves of a finished surface.
+void write_own_matrix(const Options& options, const std::string& size) {
+  namespace mesh = wireskin::mesh;
+  const scenes::Scene scene = scene_named(options.scene);
+  scenes::Result result;
+  build(scene, spacing_for(scene, std::stod(size)), WSK_METHOD_STANKO, &result);
+  const wireskin::Span<const uint32_t> triangle = {result.triangles.data(),
+                                                   result.triangles.size()};
+  const uint32_t n = static_cast<uint32_t>(result.vertex_curve.size());
+  std::vector<wireskin::Vec3> position(n);
+  for (uint32_t v = 0; v < n; ++v) {
+    const double* p = &result.positions[size_t{3} * v];
+    position[v] = {p[0], p[1], p[2]};
+  }
+  std::vector<uint32_t> unknown(n, wireskin::k_none), vertex_patch(n);
+  for (size_t h = 0; h < triangle.size(); ++h) {
+    vertex_patch[triangle[h]] = result.triangle_patch[h / 3];
+  }
+  bench::Places places;
+  for (uint32_t v = 0; v < n; ++v) {
+    if (result.vertex_curve[v] != WSK_NONE) continue;
+    unknown[v] = static_cast<uint32_t>(places.patch.size());
+    places.position.push_back(position[v]);
+    places.patch.push_back(vertex_patch[v]);
+  }
+  Context context({&plain_allocate, &plain_release, nullptr}, 0, {});
+  Array<mesh::TriangleShape> shapes(context);
+  wireskin::sparse::Csc laplacian(context), product(context);
+  std::vector<double> weight(n);
+  must(mesh::triangle_shapes({position.data(), n}, triangle, &shapes));
+  must(mesh::cotangent_laplacian(n, triangle, shapes.span(), &laplacian));
+  mesh::mixed_voronoi_areas(triangle, shapes.span(), {weight.data(), n});
+  for (double& w : weight) w = 1.0 / w;
+  must(wireskin::sparse::weighted_product(
+      laplacian, {weight.data(), n}, laplacian, {unknown.data(), n},
+      static_cast<uint32_t>(places.patch.size()), wireskin::sparse::Part::lower, &product));
+  bench::write_matrix(product, places, options.write + "." + size);
 }
 
 double relative_residual(const wireskin::sparse::Csc& a, const std::vector<double>& x,
@@ -282,6 +363,10 @@ Options read_options(int argc, char** argv) {
       options.peers = split(value);
     } else if (name == "--rig") {
       options.rig = value;
+    } else if (name == "--scene") {
+      options.scene = value;
+    } else if (name == "--write") {
+      options.write = value;
     } else if (name == "--json") {
       options.json = value;
     } else if (name == "--runs") {
@@ -303,6 +388,7 @@ int main(int argc, char** argv) try {
   Json json;
   for (const std::string& prefix : options.matrices) time_solver(options, prefix, &json);
   for (const std::string& size : options.sizes) {
+    if (!options.write.empty()) write_own_matrix(options, size);
     for (const std::string& method : options.methods) {
       time_pipeline(options, std::stod(size), method, &json);
     }

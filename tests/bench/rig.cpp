@@ -58,7 +58,22 @@ void read_matrix(const std::string& prefix, const std::string& which, RigMatrix*
   }
 }
 
-void write_matrix(const wireskin::sparse::Csc& a, const std::string& path) {
+template <typename T>
+static void write_vector(const std::vector<T>& values, const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  const int64_t count = static_cast<int64_t>(values.size());
+  file.write(reinterpret_cast<const char*>(&count), sizeof count);
+  file.write(reinterpret_cast<const char*>(values.data()),
+             static_cast<std::streamsize>(values.size() * sizeof(T)));
+  if (!file) throw std::runtime_error("cannot write " + path);
+}
+
+void write_matrix(const wireskin::sparse::Csc& a, const Places& places, const std::string& prefix) {
+  std::vector<double> xy;
+  for (const wireskin::Vec3& p : places.position) xy.insert(xy.end(), {p.x, p.y});
+  write_vector(xy, prefix + ".xy.vec");
+  write_vector(places.patch, prefix + ".patch.vec");
+  const std::string path = prefix + ".K.csc";
   std::ofstream file(path, std::ios::binary);
   const int64_t header[4] = {k_magic, a.rows, a.cols, static_cast<int64_t>(a.row.size())};
   const auto write = [&](const void* from, size_t bytes) {

@@ -13,16 +13,22 @@
 
 namespace bench {
 
-struct RigMatrix {
-  wireskin::sparse::Csc lower;
+// Where each unknown stands, and its patch.
+struct Places {
   std::vector<wireskin::Vec3> position;
   std::vector<uint32_t> patch;
+};
+
+struct RigMatrix : Places {
+  wireskin::sparse::Csc lower;
 
   explicit RigMatrix(wireskin::Context& context) : lower(context) {}
 };
 
 void read_matrix(const std::string& prefix, const std::string& which, RigMatrix* matrix);
-void write_matrix(const wireskin::sparse::Csc& lower, const std::string& path);
+// As PREFIX.K.csc, PREFIX.xy.vec and PREFIX.patch.vec.
+void write_matrix(const wireskin::sparse::Csc& lower, const Places& places,
+                  const std::string& prefix);
 
 // Runs `spsolve` of the rig, single-threaded; milliseconds, negative where it could not be run.
 struct PeerTimes {
