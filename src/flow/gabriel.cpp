@@ -67,20 +67,27 @@ static Expansion<6> exact_dot(const Vec3& u, const Vec3& v) {
   return exact_product(u.x, v.x) + exact_product(u.y, v.y) + exact_product(u.z, v.z);
 }
 
-// o.(n x w) = n.(w x o).
-static Expansion<96> exact_along(const ExactNormal& n, const Vec3& w, const Vec3& o) {
-  const ExactNormal wo = exact_normal(w, o);
-  return n.x * wo.x + n.y * wo.y + n.z * wo.z;
+// Differences of coordinates are multiples of 2^-152 below 2^151.
+static constexpr int k_fourth_parts = compact_parts(4, 303);
+static constexpr int k_sixth_parts = compact_parts(6, 303);
+
+static Expansion<k_fourth_parts> exact_normal_dot(const ExactNormal& m, const ExactNormal& n) {
+  Expansion<k_fourth_parts + 8> sum;
+  add_product(m.x, n.x, &sum);
+  add_product(m.y, n.y, &sum);
+  add_product(m.z, n.z, &sum);
+  return fitted<k_fourth_parts>(sum);
 }
 
-// For vectors that are exact in one double each, as those between near points are.
+// For vectors that are exact in one double each, as those between near points are. By the triple
+// product o.(n x w) = n.(w x o).
 static bool inside_triangle_ball_exact(const Vec3& u, const Vec3& v, const Vec3& o) {
   const ExactNormal n = exact_normal(u, v);
-  const Expansion<96> nn = n.x * n.x + n.y * n.y + n.z * n.z;
-  const Expansion<1152> whole = nn * exact_dot(o, o);
-  const Expansion<2304> along =
-      exact_along(n, u, o) * exact_dot(v, v) - exact_along(n, v, o) * exact_dot(u, u);
-  return (whole - along).leading() < 0.0;
+  Expansion<k_sixth_parts + 2 * k_fourth_parts> power;
+  add_product(exact_normal_dot(n, n), exact_dot(o, o), &power);
+  add_product(exact_normal_dot(n, exact_normal(u, o)), -exact_dot(v, v), &power);
+  add_product(exact_normal_dot(n, exact_normal(v, o)), exact_dot(u, u), &power);
+  return power.leading() < 0.0;
 }
 
 static bool exact_vector_between(const Vec3& from, const Vec3& to) {

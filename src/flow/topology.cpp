@@ -48,7 +48,39 @@ static double edge_length(const Complex& complex, uint32_t e) {
                 complex.point[complex.edge[2 * size_t{e} + 1]]);
 }
 
-// Whether the wall that a creator lies in ends on curves.
+// Toggles the wall's border in `odd`, chords replaced by the path along the curve, and counts.
+static size_t toggle_wall_border(const Complex& complex, const CurveEdges& curves,
+                                 const Sheet& sheet, Span<const uint32_t> wall, Span<uint8_t> odd) {
+  size_t count = 0;
+  const auto toggle = [&](uint32_t e) {
+    odd[e] ^= 1;
+    count += odd[e] != 0 ? size_t{1} : SIZE_MAX;
+  };
+  for (const uint32_t t : wall) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      const uint32_t middle = curves.chord_middle[e];
+      if (!curves.by_curve(e) && sheet.degree[e] == 2) continue;
+      if (curves.on_curve(e) || middle == k_none) {
+        toggle(e);
+        continue;
+      }
+      toggle(find_edge(complex, complex.edge[2 * size_t{e}], middle));
+      toggle(find_edge(complex, middle, complex.edge[2 * size_t{e} + 1]));
+    }
+  }
+  return count;
+}
+
+// Walls whose border cancels out are ears at curves, or cut off the tip of a junction.
+static bool is_tip(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
+                   Span<const uint32_t> wall, Span<uint8_t> odd) {
+  const bool tip = toggle_wall_border(complex, curves, sheet, wall, odd) == 0;
+  toggle_wall_border(complex, curves, sheet, wall, odd);
+  return tip;
+}
+
+// Whether the wall that a creator lies in ends on curves, or at least on chords.
 static bool bounded_by_curves(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
                               Span<const uint32_t> wall) {
   double whole = 0.0, loose = 0.0;
@@ -85,9 +117,10 @@ namespace {
 struct VoidTrial {
   Sheet all, peeled;
   Array<uint32_t> mark, wall;
+  Array<uint8_t> odd;  // of each edge, zero between uses
 
   explicit VoidTrial(Context& context)
-      : all(context), peeled(context), mark(context), wall(context) {}
+      : all(context), peeled(context), mark(context), wall(context), odd(context) {}
 };
 
 }  // namespace
@@ -104,6 +137,7 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_
   if (trial->peeled.in[creator] == 0) return {};
   TRY(flood_patch(complex, curves, trial->peeled, creator, stamp, trial->mark.span(),
                   &trial->wall));
+  if (is_tip(complex, curves, trial->peeled, trial->wall.span(), trial->odd.span())) return {};
   const bool bounded = bounded_by_curves(complex, curves, trial->peeled, trial->wall.span());
   *verdict = bounded ? Verdict::accepted : Verdict::unbounded;
   return {};
@@ -118,6 +152,7 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
   Array<uint32_t> unbounded(context);
   TRY(start_sheet(complex, &trial.all));
   TRY(trial.mark.assign(complex.triangle_count(), k_none));
+  TRY(trial.odd.assign(complex.edge_count(), 0));
   chosen->clear();
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial.all);

@@ -76,11 +76,24 @@ static Status normals_of_vertices(const flow::Flow& flow, Span<const Vec3> given
   return {};
 }
 
-// Along arcs normals change evenly from one given sample to the next.
+// The point between two samples that their normals bend the segment to: the cubic that is
+// orthogonal to both (Vlachos et al., "Curved PN Triangles", 2001).
+static Vec3 bent(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& normal_q,
+                 double share) {
+  const Vec3 chord = q - p;
+  const Vec3 at_p = (-dot(chord, normal_p)) * normal_p, at_q = dot(chord, normal_q) * normal_q;
+  const double rest = 1.0 - share;
+  return (share * rest) * (rest * at_p + share * at_q);
+}
+
+// Along arcs normals change evenly from one given sample to the next; vertices between two samples
+// leave the segment for where the normals say that the surface is.
 static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
-                                Span<const uint32_t> vertex_of, Surface* surface) {
+                                Span<const uint32_t> vertex_of, Surface* surface,
+                                Array<Vec3>* offset) {
   const flow::Samples& samples = flow.samples;
   const flow::Arcs& arcs = flow.arcs;
+  TRY(offset->assign(surface->position.size(), Vec3{}));
   Array<Vec3> normal(surface->normal.context());
   TRY(normals_of_vertices(flow, given, &normal));
   for (uint32_t i = 0; i < samples.at.size(); ++i) {
@@ -88,8 +101,9 @@ static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
     const double whole = arcs.along[step + 1] - arcs.along[step];
     const double share = whole > 0.0 ? (samples.along[i] - arcs.along[step]) / whole : 0.0;
     const double clamped = smaller(larger(share, 0.0), 1.0);
-    surface->constraint_normal[vertex_of[samples.at[i]]] =
-        unit((1.0 - clamped) * normal[p] + clamped * normal[q]);
+    const uint32_t v = vertex_of[samples.at[i]];
+    surface->constraint_normal[v] = unit((1.0 - clamped) * normal[p] + clamped * normal[q]);
+    (*offset)[v] = bent(arcs.vertex[p], arcs.vertex[q], normal[p], normal[q], clamped);
   }
   return {};
 }
@@ -125,9 +139,6 @@ static Status smooth_flow_surface(Context& context, const mesh::Topology& topolo
   TRY(constrained.resize(surface->position.size()));
   for (size_t v = 0; v < constrained.size(); ++v) {
     constrained[v] = surface->vertex_curve[v] != k_none;
-    if (topology.on_border[v] != 0 && constrained[v] == 0) {
-      return fail(Code::unconstrained, "a patch has a border that is no curve");
-    }
   }
   TRY(mesh::triangle_shapes(surface->position.span(), surface->triangle.span(), &shapes));
   const TriangleSet set = {surface->position.span(), surface->constraint_normal.span(),
@@ -174,6 +185,25 @@ static void count_flow(const flow::Flow& flow, const flow::Reconstruction& recon
   for (const uint32_t curve : surface->vertex_curve) counts.free_vertices += curve == k_none;
 }
 
+// Smooths, unless the smoothed surface would cross itself or has borders that nothing holds: then
+// all is as before, and *done stays false.
+static Status try_to_smooth(Context& context, const mesh::Topology& topology,
+                            Span<const Vec3> offset, smooth::Method method, Surface* surface,
+                            bool* done) {
+  Array<Vec3> before(context);
+  Array<uint32_t> pairs(context);
+  for (size_t v = 0; v < topology.on_border.size(); ++v) {
+    if (topology.on_border[v] != 0 && surface->vertex_curve[v] == k_none) return {};
+  }
+  TRY(before.copy(surface->position.span()));
+  for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
+  TRY(smooth_flow_surface(context, topology, method, surface));
+  TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(), 1, &pairs));
+  *done = pairs.empty();
+  if (!*done) surface->position = static_cast<Array<Vec3>&&>(before);
+  return {};
+}
+
 Status surface_from_flow(Context& context, const flow::Flow& flow,
                          const flow::Reconstruction& reconstruction, const FlowSettings& settings,
                          Surface* surface, FlowOutcome* outcome) {
@@ -186,8 +216,9 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   }
   TRY(take_flow_curves(flow, outcome->vertex_of.span(), surface));
   TRY(surface->constraint_normal.assign(surface->position.size(), Vec3{}));
+  Array<Vec3> offset(context);
   if (!settings.normal.empty()) {
-    TRY(take_flow_normals(flow, settings.normal, outcome->vertex_of.span(), surface));
+    TRY(take_flow_normals(flow, settings.normal, outcome->vertex_of.span(), surface, &offset));
   }
   mesh::Topology topology(context);
   const Status status = count_topology(static_cast<uint32_t>(surface->position.size()),
@@ -202,13 +233,10 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
     return measure_flow_surface(context, topology, measurable, surface);
   }
   TRY(turn_to_normals(context, topology, surface));
-  Array<uint32_t> pairs(context);
-  TRY(smooth_flow_surface(context, topology, settings.method, surface));
-  TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(), 1000,
-                           &pairs));
-  outcome->crossings = static_cast<uint32_t>(pairs.size() / 2);
-  outcome->smoothed = true;
-  return {};
+  TRY(try_to_smooth(context, topology, offset.span(), settings.method, surface,
+                    &outcome->smoothed));
+  if (outcome->smoothed) return {};
+  return measure_flow_surface(context, topology, measurable, surface);
 }
 
 }  // namespace wireskin

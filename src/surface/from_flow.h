@@ -3,8 +3,10 @@
 //
 // In: a flow and a reconstruction of it, the caller's normals or none. Out: the surface with
 // patches, curve edges and the counts of the report. Curves that bound no patch stay in it as curve
-// edges. Without normals, and where more than two patches meet at a curve, the remeshed patches are
-// the result; curvatures are zero then where the mesh is no manifold.
+// edges. Without normals, where more than two patches meet at a curve, where a border is no curve
+// and where smoothing would make triangles cross, the remeshed patches are the result; curvatures
+// are zero then where the mesh is no manifold. For smoothing, vertices between two samples of a
+// curve move off the segment to where the normals at its ends bend it (curved PN triangles).
 #pragma once
 
 #include "flow/remesh.h"

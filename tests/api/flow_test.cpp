@@ -237,7 +237,7 @@ TEST_CASE("Normals shape the surface") {
     const double* const p = &r.positions[v];
     worst = std::fmax(worst, std::fabs(std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1.0));
   }
-  CHECK(worst < 0.01);
+  CHECK(worst < 1e-3);
   Curves bare = sphere();
   bare.normals.clear();
   CHECK(surface_of(bare, options).view.smoothed == 0);

@@ -1,6 +1,6 @@
 // How the reconstruction bears noise, and curves added and taken away: prints a table.
 //
-//     flow_table [FOLDER]
+//     flow_table [FOLDER [noise|removal]]
 //
 // FOLDER holds networks (.obj with l) and expected.csv; the shapes made in unseen.h are always in.
 // Noise moves every vertex of the polylines by a Gaussian of the given part of the diagonal; the
@@ -31,10 +31,11 @@ static std::vector<Shape> shapes_of(const std::string& folder) {
     const bool left_out = line.find("KNOWN") != std::string::npos;
     if (left_out || line.find("torus_dense") != std::string::npos) continue;
     const std::string file = line.substr(0, line.find(','));
-    const std::string note = line.find(",auto,") != std::string::npos ? "-1"
-                             : line.find(",1,") != std::string::npos  ? "1"
-                                                                      : "0";
-    shapes.push_back({file, read_obj(folder + "/" + file), std::atoi(note.c_str())});
+    // The seventh field; none before it is quoted.
+    size_t field = 0;
+    for (int k = 0; k < 6; ++k) field = line.find(',', field) + 1;
+    const int32_t voids = line.compare(field, 4, "auto") == 0 ? -1 : std::atoi(&line[field]);
+    shapes.push_back({file, read_obj(folder + "/" + file), voids});
   }
   return shapes;
 }
@@ -119,6 +120,7 @@ static void print_noise(const std::vector<Shape>& shapes) {
       }
     }
     std::printf("| %.1f %% | %d | %d | %zu |\n", 100 * sigma, kept[1], kept[0], shapes.size());
+    std::fflush(stdout);
     std::fprintf(stderr, "%.3f lost when smoothed:%s\n", sigma, lost.c_str());
   }
 }
@@ -153,6 +155,7 @@ static void print_removal(const std::vector<Shape>& shapes) {
     }
     std::printf("| %s | %u | %.1f | %zu |\n", shape.name.c_str(), whole.patches,
                 double(sum) / double(shape.net.curve.size()), most);
+    std::fflush(stdout);
   }
 }
 
@@ -161,7 +164,8 @@ static void print_removal(const std::vector<Shape>& shapes) {
 int main(int argc, char** argv) {
   const std::string folder = argc > 1 ? argv[1] : std::string(WIRESKIN_TEST_DATA) + "/flow-tests";
   const std::vector<flow_tests::Shape> shapes = flow_tests::shapes_of(folder);
-  flow_tests::print_noise(shapes);
-  flow_tests::print_removal(shapes);
+  const std::string part = argc > 2 ? argv[2] : "";
+  if (part != "removal") flow_tests::print_noise(shapes);
+  if (part != "noise") flow_tests::print_removal(shapes);
   return 0;
 }

@@ -224,13 +224,24 @@ std::vector<Scene> unusual() {
   return {tube, globe, disc(), part};
 }
 
+std::vector<Scene> flows() {
+  Scene with_normals = octants(), without = ellipsoid();
+  with_normals.name = "flow_octants";
+  with_normals.method = WSK_METHOD_FAIR;
+  without.name = "flow_ellipsoid";
+  without.method = WSK_METHOD_FAIR;
+  for (Curve& curve : without.curves) curve.normals.clear();
+  with_normals.flow = without.flow = true;
+  return {with_normals, without};
+}
+
 std::vector<wsk_curve> curves_of(const Scene& scene) {
   std::vector<wsk_curve> curves;
   for (const Curve& from : scene.curves) {
     wsk_curve curve = {};
     curve.sample_count = from.size();
     curve.positions = from.positions.data();
-    curve.normals = from.normals.data();
+    curve.normals = from.normals.empty() ? nullptr : from.normals.data();
     curve.nodes = from.nodes.data();
     curve.closed = from.closed;
     curve.boundary = from.boundary;
@@ -259,6 +270,17 @@ wsk_options options_of(const Scene& scene) {
   return options;
 }
 
+static wsk_status run_flow(const std::vector<wsk_curve>& curves, const wsk_options& options,
+                           wsk_surface** surface, wsk_report* report) {
+  wsk_flow* flow = nullptr;
+  wsk_status status =
+      wsk_flow_build(curves.data(), curves.size(), &options, nullptr, &flow, report);
+  if (status != WSK_OK) return status;
+  status = wsk_flow_surface(flow, &options, nullptr, surface, report);
+  wsk_flow_free(flow);
+  return status;
+}
+
 wsk_status run(const Scene& scene, const wsk_options& options, wsk_surface** surface,
                wsk_report* report) {
   if (!scene.triangles.empty()) {
@@ -266,6 +288,7 @@ wsk_status run(const Scene& scene, const wsk_options& options, wsk_surface** sur
     return wsk_smooth_mesh(&mesh, &options, surface, report);
   }
   const std::vector<wsk_curve> curves = curves_of(scene);
+  if (scene.flow) return run_flow(curves, options, surface, report);
   return wsk_build(curves.data(), curves.size(), &options, surface, report);
 }
 

@@ -35,6 +35,8 @@ struct Scene {
   std::vector<double> normals;
   std::vector<uint8_t> constrained;
   std::vector<uint32_t> triangles;
+
+  bool flow = false;  // from the curves alone
 };
 
 // Three great circles of the unit sphere, 10 segments a quarter after resampling.
@@ -48,6 +50,8 @@ Scene band();
 Scene noisy();
 // octants(), saddle(), band() and noisy().
 std::vector<Scene> all();
+// Curves alone: the great circles with their normals, the ellipsoid without.
+std::vector<Scene> flows();
 
 // Patches that are no disc in a plane: a tube between two circles, a globe round one, a disc with a
 // hole, a dangling curve and a point in it, and that disc beside a folded patch that is left out.
@@ -64,7 +68,7 @@ wsk_mesh mesh_of(const Scene& scene);
 // Defaults with the scene's spacing and method.
 wsk_options options_of(const Scene& scene);
 
-// wsk_build or wsk_smooth_mesh, whichever the scene is for.
+// wsk_build, wsk_smooth_mesh or wsk_flow_surface, whichever the scene is for.
 wsk_status run(const Scene& scene, const wsk_options& options, wsk_surface** surface,
                wsk_report* report);
 
