@@ -18,7 +18,7 @@ struct Matrix {
 
 static Matrix read_matrix(fuzz::Bytes& bytes, bool dominant) {
   Matrix m;
-  m.n = 1 + bytes.below(48);
+  m.n = 1 + bytes.below(120);
   m.dense.assign(size_t{m.n} * m.n, 0.0);
   for (uint32_t i = 0; i < m.n; ++i) m.at(i, i) = dominant ? 1.0 : bytes.number();
   for (uint32_t left = 4 * m.n; left > 0 && !bytes.empty(); --left) {
@@ -61,7 +61,15 @@ static void check(Context& context, fuzz::Bytes& bytes) {
   sparse::Csc lower(context);
   fuzz::require(lower_of(m, &lower).ok());
   Array<uint32_t> order(context);
-  fuzz::require((dissect ? sparse::nested_dissection(lower, {}, &order)
+  std::vector<Vec3> places;
+  std::vector<uint32_t> patches;
+  for (uint32_t i = 0; i < m.n; ++i) {
+    places.push_back({bytes.byte() / 8.0, bytes.byte() / 8.0, 0.0});
+    patches.push_back(bytes.below(3));
+  }
+  const sparse::Geometry geometry = {
+      {}, {places.data(), places.size()}, {patches.data(), patches.size()}};
+  fuzz::require((dissect ? sparse::nested_dissection(lower, geometry, &order)
                          : sparse::minimum_degree(lower, &order))
                     .ok());
   std::vector<uint8_t> seen(m.n, 0);

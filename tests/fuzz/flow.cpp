@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     for (int round = 0; round < 2; ++round) {
       limits.checkpoints = 0;
       wsk_surface* surface = nullptr;
-      fuzz::check_outcome(wsk_flow_surface(flow, &options, &how, &surface, nullptr), surface);
+      fuzz::check_outcome(wsk_flow_surface(flow, &options, &how, &surface, nullptr), surface, true);
       how.voids = 1;
     }
   }
