@@ -1,5 +1,5 @@
 # The library as it ships, embedded by another CMake project: it needs no symbol of the C++ runtime,
-# exports only the C API, and C programs link with it by the C compiler alone.
+# exports only the C API, has no writable global, and C programs link with it by the C compiler alone.
 cmake_minimum_required(VERSION 3.25)
 set(allowed
     memcpy memmove memset memcmp malloc free sqrt
@@ -35,6 +35,19 @@ foreach(symbol IN LISTS defined)
   if(NOT symbol MATCHES "^(wsk_|_ZN[A-Z0-9]*8wireskin|_Z[A-Z]*N[A-Z]*8wireskin)")
     message(SEND_ERROR "the library defines the symbol ${symbol} outside its namespace")
   endif()
+endforeach()
+
+# No writable global: nothing in .data, .bss or thread-local sections (constant tables that hold
+# addresses lie in .data.rel.ro, which the loader closes).
+find_program(objdump objdump REQUIRED)
+execute_process(COMMAND ${objdump} -t ${archive} OUTPUT_VARIABLE table COMMAND_ERROR_IS_FATAL ANY)
+if(NOT table MATCHES " O \\.rodata")
+  message(SEND_ERROR "no constant table was seen; this test reads nothing")
+endif()
+string(REGEX MATCHALL "[^\n]* O [.*](data|bss|tdata|tbss|COM)[^\n]*" objects "${table}")
+list(FILTER objects EXCLUDE REGEX " \\.data\\.rel\\.ro")
+foreach(object IN LISTS objects)
+  message(SEND_ERROR "a writable global: ${object}")
 endforeach()
 
 # The C programs: the strict C89 one and the example of the README.

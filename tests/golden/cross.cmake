@@ -3,8 +3,8 @@
 # give the bits of golden.h.
 cmake_minimum_required(VERSION 3.25)
 
-set(sources ${ROOT}/tests/golden/golden_print.cpp ${ROOT}/tests/support/scenes.cpp
-            ${ROOT}/tests/embed/implementation.cpp)
+file(GLOB scenes ${ROOT}/tests/support/*scenes.cpp)
+set(sources ${ROOT}/tests/golden/golden_print.cpp ${scenes} ${ROOT}/tests/embed/implementation.cpp)
 set(common -std=c++17 -O2 -ffp-contract=off -I${ROOT}/tests -I${WORK})
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})

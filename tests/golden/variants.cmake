@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/tests/embed/find_compilers.cmake)
 
-set(tests ${ROOT}/tests/golden/golden_print.cpp ${ROOT}/tests/support/scenes.cpp)
+file(GLOB tests ${ROOT}/tests/golden/golden_print.cpp ${ROOT}/tests/support/*scenes.cpp)
 file(GLOB_RECURSE sources ${ROOT}/src/*.cpp)
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})

@@ -1,75 +1,14 @@
 #include "support/scenes.h"
 
-#include <array>
+#include <algorithm>
 #include <cinttypes>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <utility>
 
+#include "support/scene_parts.h"
+
 namespace scenes {
-
-struct Point2 {
-  double x, y;
-};
-
-// `segments` (a power of two) equal steps of the quarter from (1, 0) to (0, 1), both ends included.
-static std::vector<Point2> quarter(size_t segments) {
-  std::vector<Point2> points(segments + 1);
-  points[0] = {1.0, 0.0};
-  points[segments] = {0.0, 1.0};
-  for (size_t step = segments; step > 1; step /= 2) {
-    for (size_t i = 0; i < segments; i += step) {
-      const Point2 a = points[i], b = points[i + step];
-      const double x = a.x + b.x, y = a.y + b.y, norm = std::sqrt(x * x + y * y);
-      points[i + step / 2] = {x / norm, y / norm};
-    }
-  }
-  return points;
-}
-
-// The whole circle, without repeating its first point; exact under quarter turns.
-static std::vector<Point2> circle(size_t segments_per_quarter) {
-  const std::vector<Point2> first = quarter(segments_per_quarter);
-  std::vector<Point2> points;
-  for (int turn = 0; turn < 4; ++turn) {
-    for (size_t i = 0; i < segments_per_quarter; ++i) {
-      Point2 p = first[i];
-      for (int t = 0; t < turn; ++t) p = {-p.y, p.x};
-      points.push_back(p);
-    }
-  }
-  return points;
-}
-
-static void add_sample(Curve& curve, const std::array<double, 3>& position,
-                       const std::array<double, 3>& normal, uint32_t node) {
-  curve.positions.insert(curve.positions.end(), position.begin(), position.end());
-  curve.normals.insert(curve.normals.end(), normal.begin(), normal.end());
-  curve.nodes.push_back(node);
-}
-
-// The section of the ellipsoid with the plane of axes a and b. Nodes are numbered +x -x +y -y +z
-// -z.
-static Curve section(const std::vector<Point2>& unit_circle, size_t a, size_t b,
-                     const std::array<double, 3>& radii) {
-  const uint32_t node_at_quarter[4] = {static_cast<uint32_t>(2 * a), static_cast<uint32_t>(2 * b),
-                                       static_cast<uint32_t>(2 * a + 1),
-                                       static_cast<uint32_t>(2 * b + 1)};
-  const size_t quarter_size = unit_circle.size() / 4;
-  Curve curve;
-  curve.closed = true;
-  for (size_t i = 0; i < unit_circle.size(); ++i) {
-    std::array<double, 3> position = {}, normal = {};
-    position[a] = radii[a] * unit_circle[i].x;
-    position[b] = radii[b] * unit_circle[i].y;
-    normal[a] = unit_circle[i].x / radii[a];
-    normal[b] = unit_circle[i].y / radii[b];
-    const bool at_node = i % quarter_size == 0;
-    add_sample(curve, position, normal, at_node ? node_at_quarter[i / quarter_size] : WSK_NONE);
-  }
-  return curve;
-}
 
 Scene octants() {
   Scene scene;
@@ -131,6 +70,7 @@ Scene band() {
   constexpr uint32_t k_rows = 9;
   Scene scene;
   scene.name = "band";
+  scene.way = Way::smooth_mesh;
   const std::vector<Point2> points = circle(8);
   const uint32_t around = static_cast<uint32_t>(points.size());
   for (uint32_t row = 0; row < k_rows; ++row) {
@@ -170,69 +110,9 @@ Scene noisy() {
   return scene;
 }
 
-std::vector<Scene> all() {
-  return {octants(), saddle(), band(), noisy()};
-}
-
-// In the plane of height z; normals point away from the axis or up.
-static Curve ring(double x, double y, double z, double radius, bool outward) {
-  Curve curve;
-  curve.closed = curve.boundary = true;
-  for (const Point2& p : circle(8)) {
-    const std::array<double, 3> up = {0.0, 0.0, 1.0}, out = {p.x, p.y, 0.0};
-    add_sample(curve, {x + radius * p.x, y + radius * p.y, z}, outward ? out : up, WSK_NONE);
-  }
-  return curve;
-}
-
-static Scene disc() {
-  Scene scene;
-  scene.name = "disc";
-  scene.spacing = 0.25;
-  scene.method = WSK_METHOD_FAIR;
-  scene.curves = {ring(0.0, 0.0, 0.0, 1.0, false), ring(-0.4, -0.3, 0.0, 0.25, false)};
-  Curve line, point;
-  for (int i = 0; i <= 6; ++i) {
-    const double t = (i - 3) / 3.0;
-    add_sample(line, {0.3 * t, 0.4, 0.1 * (1.0 - t * t)}, {0.0, 0.0, 1.0}, WSK_NONE);
-  }
-  add_sample(point, {0.4, -0.3, 0.1}, {0.0, 0.0, 1.0}, WSK_NONE);
-  scene.curves.push_back(line);
-  scene.curves.push_back(point);
-  return scene;
-}
-
-std::vector<Scene> unusual() {
-  Scene tube, globe, part = disc();
-  tube.name = "tube";
-  tube.spacing = 0.25;
-  tube.method = WSK_METHOD_FAIR;
-  tube.curves = {ring(0.0, 0.0, -0.5, 1.0, true), ring(0.0, 0.0, 0.5, 1.0, true)};
-  globe.name = "globe";
-  globe.spacing = 0.25;
-  globe.method = WSK_METHOD_FAIR;
-  globe.curves = {ring(0.0, 0.0, 0.0, 1.0, true)};
-  globe.curves[0].boundary = false;
-  part.name = "part";
-  part.partial = true;
-  Curve eight;  // crosses itself
-  eight.closed = eight.boundary = true;
-  for (const Point2& p : circle(8)) {
-    add_sample(eight, {5.0 + p.x * p.y, 0.4 * p.x + 0.1 * p.y, 0.0}, {0.0, 0.0, 1.0}, WSK_NONE);
-  }
-  part.curves.push_back(eight);
-  return {tube, globe, disc(), part};
-}
-
-std::vector<Scene> flows() {
-  Scene with_normals = octants(), without = ellipsoid();
-  with_normals.name = "flow_octants";
-  with_normals.method = WSK_METHOD_FAIR;
-  without.name = "flow_ellipsoid";
-  without.method = WSK_METHOD_FAIR;
-  for (Curve& curve : without.curves) curve.normals.clear();
-  with_normals.flow = without.flow = true;
-  return {with_normals, without};
+template <typename T>
+static const T* data_or_null(const std::vector<T>& values) {
+  return values.empty() ? nullptr : values.data();
 }
 
 std::vector<wsk_curve> curves_of(const Scene& scene) {
@@ -241,10 +121,13 @@ std::vector<wsk_curve> curves_of(const Scene& scene) {
     wsk_curve curve = {};
     curve.sample_count = from.size();
     curve.positions = from.positions.data();
-    curve.normals = from.normals.empty() ? nullptr : from.normals.data();
+    curve.normals = data_or_null(from.normals);
     curve.nodes = from.nodes.data();
     curve.closed = from.closed;
     curve.boundary = from.boundary;
+    curve.soft = from.soft;
+    curve.sharp = from.sharp;
+    curve.normals_right = data_or_null(from.normals_right);
     curves.push_back(curve);
   }
   return curves;
@@ -266,35 +149,111 @@ wsk_options options_of(const Scene& scene) {
   wsk_options_init(&options, sizeof options);
   options.spacing = scene.spacing;
   options.method = scene.method;
-  options.partial = scene.partial ? 1 : 0;
+  options.smoothing = scene.smoothing;
+  options.noise = scene.noise;
+  options.soft = scene.soft;
+  options.partial = scene.partial;
   return options;
 }
 
-static wsk_status run_flow(const std::vector<wsk_curve>& curves, const wsk_options& options,
-                           wsk_surface** surface, wsk_report* report) {
-  wsk_flow* flow = nullptr;
-  wsk_status status =
-      wsk_flow_build(curves.data(), curves.size(), &options, nullptr, &flow, report);
+template <typename T>
+static std::vector<T> copied(const T* from, size_t count) {
+  return from == nullptr ? std::vector<T>() : std::vector<T>(from, from + count);
+}
+
+static wsk_status connect_curves(const Scene& scene, const wsk_options& options,
+                                 wsk_network** network, wsk_report* report) {
+  wsk_connect_options how;
+  wsk_connect_options_init(&how, sizeof how);
+  how.orient = scene.orient;
+  how.options = &options;
+  const std::vector<wsk_curve> curves = curves_of(scene);
+  return wsk_connect(curves.data(), curves.size(), &how, network, report);
+}
+
+static wsk_status integrate_curves(const Scene& scene, const wsk_options& options,
+                                   wsk_network** network, wsk_report* report) {
+  std::vector<wsk_sensor_curve> sensors;
+  for (const SensorCurve& from : scene.sensors) {
+    wsk_sensor_curve sensor = {};
+    sensor.sample_count = from.arc_lengths.size();
+    sensor.arc_lengths = from.arc_lengths.data();
+    sensor.tangents = from.tangents.data();
+    sensor.normals = from.rest.normals.data();
+    sensor.nodes = from.rest.nodes.data();
+    sensor.closed = from.rest.closed;
+    sensor.boundary = from.rest.boundary;
+    sensor.tangents_to_next = scene.tangents_to_next;
+    sensors.push_back(sensor);
+  }
+  return wsk_integrate(sensors.data(), sensors.size(), &options, network, report);
+}
+
+// The network as curves of a scene, so that the library's own can be freed.
+static std::vector<Curve> curves_of(const wsk_network* network) {
+  wsk_network_view view;
+  wsk_network_get_view(network, &view, sizeof view);
+  std::vector<Curve> curves;
+  for (uint32_t c = 0; c < view.curve_count; ++c) {
+    const wsk_curve& from = view.curves[c];
+    Curve curve;
+    curve.positions = copied(from.positions, 3 * from.sample_count);
+    curve.normals = copied(from.normals, 3 * from.sample_count);
+    curve.nodes = copied(from.nodes, from.sample_count);
+    curve.closed = from.closed != 0;
+    curve.boundary = from.boundary != 0;
+    curves.push_back(curve);
+  }
+  return curves;
+}
+
+static wsk_status run_network(const Scene& scene, const wsk_options& options, wsk_surface** surface,
+                              wsk_report* report) {
+  wsk_network* network = nullptr;
+  const wsk_status status = scene.way == Way::connect
+                                ? connect_curves(scene, options, &network, report)
+                                : integrate_curves(scene, options, &network, report);
   if (status != WSK_OK) return status;
-  status = wsk_flow_surface(flow, &options, nullptr, surface, report);
+  Scene joined = scene;
+  joined.way = Way::build;
+  joined.curves = curves_of(network);
+  wsk_network_free(network);
+  const size_t peak = report != nullptr ? report->peak_bytes : 0;
+  const wsk_status built = run(joined, options, surface, report);
+  if (report != nullptr) report->peak_bytes = std::max(peak, report->peak_bytes);
+  return built;
+}
+
+static wsk_status run_flow(const Scene& scene, const wsk_options& options, wsk_surface** surface,
+                           wsk_report* report) {
+  wsk_flow_options how;
+  wsk_flow_options_init(&how, sizeof how);
+  how.sampling = scene.spacing / 2;
+  how.voids = scene.voids;
+  how.raw = scene.raw;
+  const std::vector<wsk_curve> curves = curves_of(scene);
+  wsk_flow* flow = nullptr;
+  wsk_status status = wsk_flow_build(curves.data(), curves.size(), &options, &how, &flow, report);
+  if (status != WSK_OK) return status;
+  const size_t peak = report != nullptr ? report->peak_bytes : 0;
+  status = wsk_flow_surface(flow, &options, &how, surface, report);
+  if (report != nullptr) report->peak_bytes = std::max(peak, report->peak_bytes);
   wsk_flow_free(flow);
   return status;
 }
 
 wsk_status run(const Scene& scene, const wsk_options& options, wsk_surface** surface,
                wsk_report* report) {
-  if (!scene.triangles.empty()) {
+  if (scene.way == Way::connect || scene.way == Way::integrate) {
+    return run_network(scene, options, surface, report);
+  }
+  if (scene.way == Way::flow) return run_flow(scene, options, surface, report);
+  if (scene.way == Way::smooth_mesh) {
     const wsk_mesh mesh = mesh_of(scene);
     return wsk_smooth_mesh(&mesh, &options, surface, report);
   }
   const std::vector<wsk_curve> curves = curves_of(scene);
-  if (scene.flow) return run_flow(curves, options, surface, report);
   return wsk_build(curves.data(), curves.size(), &options, surface, report);
-}
-
-template <typename T>
-static std::vector<T> copied(const T* from, size_t count) {
-  return from == nullptr ? std::vector<T>() : std::vector<T>(from, from + count);
 }
 
 Result copy_of(const wsk_surface* surface) {
@@ -374,6 +333,12 @@ std::string hashes_by_array(const Result& result) {
          named_hash("triangle_patch", result.triangle_patch) +
          named_hash("curve_edges", result.curve_edges) +
          named_hash("curve_edge_curve", result.curve_edge_curve);
+}
+
+const char* name_of_method(wsk_method method) {
+  static const char* const k_names[WSK_METHOD_COUNT] = {"STANKO",  "BIHARMONIC", "TRIHARMONIC",
+                                                        "CLAMPED", "ITERATED",   "FAIR"};
+  return k_names[method];
 }
 
 Result result_of(const Scene& scene) {

@@ -1,5 +1,5 @@
-// Three small reference scenes for the harness, as plain arrays for the C API, and what its tests
-// need round a call: an owner for the surface, copies of the results and one hash over them.
+// The reference scenes as plain arrays for the C API, and what tests need round a call: copies of
+// the results and one hash over them. Each scene takes some milliseconds.
 //
 // The points come from sqrt and the four operations alone, so that they have the same bits
 // everywhere and the hashes can be committed.
@@ -19,24 +19,44 @@ struct Curve {
   std::vector<uint32_t> nodes;    // 1 a sample, WSK_NONE between nodes
   bool closed = false;
   bool boundary = false;
+  double soft = 0.0;
+  bool sharp = false;
+  std::vector<double> normals_right;  // of sharp curves
 
   size_t size() const { return nodes.size(); }
 };
 
-// Either a network (curves) or a mesh of the caller's (triangles not empty).
+struct SensorCurve {
+  std::vector<double> arc_lengths;
+  std::vector<double> tangents;
+  Curve rest;  // its positions are not read
+};
+
+// By which functions a scene becomes a surface.
+enum class Way { build, connect, integrate, flow, smooth_mesh };
+
+// Curves, sensor curves, or a mesh of the caller's, as `way` says. Empty arrays of normals stand
+// for null pointers.
 struct Scene {
   std::string name;
+  Way way = Way::build;
   std::vector<Curve> curves;
+  std::vector<SensorCurve> sensors;
+  bool tangents_to_next = false;
+  wsk_smoothing smoothing = WSK_SMOOTHING_DEFAULT;
+  double noise = 0.0;
+  double soft = 0.0;
+  bool partial = false;
+  bool orient = false;
+  int32_t voids = WSK_VOIDS_AUTO;
+  bool raw = false;
   double spacing = 0.0;
   wsk_method method = WSK_METHOD_STANKO;
-  bool partial = false;
 
   std::vector<double> positions;
   std::vector<double> normals;
   std::vector<uint8_t> constrained;
   std::vector<uint32_t> triangles;
-
-  bool flow = false;  // from the curves alone
 };
 
 // Three great circles of the unit sphere, 10 segments a quarter after resampling.
@@ -48,14 +68,9 @@ Scene saddle();
 Scene band();
 // An ellipsoid with noisy samples, surfaced by the default method: every stage does its work.
 Scene noisy();
-// octants(), saddle(), band() and noisy().
+// The four above and the rest, which are made in reference_scenes.cpp: every method and every way,
+// loops, holes, creases, soft curves, points, dangling curves, patches that fail.
 std::vector<Scene> all();
-// Curves alone: the great circles with their normals, the ellipsoid without.
-std::vector<Scene> flows();
-
-// Patches that are no disc in a plane: a tube between two circles, a globe round one, a disc with a
-// hole, a dangling curve and a point in it, and that disc beside a folded patch that is left out.
-std::vector<Scene> unusual();
 
 // Three closed curves on an ellipsoid with unequal axes, unevenly sampled: no symmetry within a
 // patch, so the topology does not hang on how ties are broken.
@@ -65,10 +80,12 @@ Scene ellipsoid();
 std::vector<wsk_curve> curves_of(const Scene& scene);
 wsk_mesh mesh_of(const Scene& scene);
 
-// Defaults with the scene's spacing and method.
+// Defaults with what the scene says.
 wsk_options options_of(const Scene& scene);
 
-// wsk_build, wsk_smooth_mesh or wsk_flow_surface, whichever the scene is for.
+// The functions that the scene is for, one after the other; never more than one holds memory for
+// itself, so that the report's peak is the greatest of theirs (a flow counts together with its
+// surface).
 wsk_status run(const Scene& scene, const wsk_options& options, wsk_surface** surface,
                wsk_report* report);
 
@@ -90,5 +107,8 @@ std::string hashes_by_array(const Result& result);
 // Runs the scene with its own options and the given method; an empty result where that fails.
 Result result_of(const Scene& scene, wsk_method method);
 Result result_of(const Scene& scene);  // by its own method
+
+// "FAIR" of WSK_METHOD_FAIR.
+const char* name_of_method(wsk_method method);
 
 }  // namespace scenes

@@ -1,0 +1,98 @@
+// libFuzzer target: sparse symmetric matrices to the orderings, to Cholesky and to L D L^T.
+// Whatever is diagonally dominant must be solved, and by both to the same numbers.
+#include "sparse/cholesky.h"
+
+#include "fuzz/bytes.h"
+#include "sparse/ldl.h"
+#include "sparse/nested_dissection.h"
+#include "sparse/ordering.h"
+
+using namespace wireskin;
+
+struct Matrix {
+  uint32_t n;
+  std::vector<double> dense;
+
+  double& at(uint32_t i, uint32_t j) { return dense[size_t{i} * n + j]; }
+};
+
+static Matrix read_matrix(fuzz::Bytes& bytes, bool dominant) {
+  Matrix m;
+  m.n = 1 + bytes.below(120);
+  m.dense.assign(size_t{m.n} * m.n, 0.0);
+  for (uint32_t i = 0; i < m.n; ++i) m.at(i, i) = dominant ? 1.0 : bytes.number();
+  for (uint32_t left = 4 * m.n; left > 0 && !bytes.empty(); --left) {
+    const uint32_t i = bytes.below(m.n), j = bytes.below(m.n);
+    if (i == j) continue;
+    const double value = dominant ? (bytes.byte() - 128) / 8.0 : bytes.number();
+    m.at(i, j) = m.at(j, i) = value;
+  }
+  for (uint32_t i = 0; dominant && i < m.n; ++i) {
+    for (uint32_t j = 0; j < m.n; ++j) m.at(i, i) += i == j ? 0.0 : std::fabs(m.at(i, j));
+  }
+  return m;
+}
+
+static Status lower_of(Matrix& m, sparse::Csc* lower) {
+  lower->rows = lower->cols = m.n;
+  for (uint32_t j = 0; j < m.n; ++j) {
+    TRY(lower->start.push(static_cast<uint32_t>(lower->row.size())));
+    for (uint32_t i = j; i < m.n; ++i) {
+      if (i != j && m.at(i, j) == 0.0) continue;
+      TRY(lower->row.push(i));
+      TRY(lower->value.push(m.at(i, j)));
+    }
+  }
+  return lower->start.push(static_cast<uint32_t>(lower->row.size()));
+}
+
+template <typename Solver>
+static Status solve(const sparse::Csc& lower, const Array<uint32_t>& order, Solver* solver,
+                    std::vector<double>* x, uint32_t columns) {
+  TRY(solver->analyse(lower, order.span()));
+  TRY(solver->factor(lower));
+  return solver->solve({x->data(), x->size()}, columns);
+}
+
+static void check(Context& context, fuzz::Bytes& bytes) {
+  const bool dominant = bytes.one_in(2), dissect = bytes.one_in(2);
+  const uint32_t columns = 1 + bytes.below(5);
+  Matrix m = read_matrix(bytes, dominant);
+  sparse::Csc lower(context);
+  fuzz::require(lower_of(m, &lower).ok());
+  Array<uint32_t> order(context);
+  std::vector<Vec3> places;
+  std::vector<uint32_t> patches;
+  for (uint32_t i = 0; i < m.n; ++i) {
+    places.push_back({bytes.byte() / 8.0, bytes.byte() / 8.0, 0.0});
+    patches.push_back(bytes.below(3));
+  }
+  const sparse::Geometry geometry = {
+      {}, {places.data(), places.size()}, {patches.data(), patches.size()}};
+  fuzz::require((dissect ? sparse::nested_dissection(lower, geometry, &order)
+                         : sparse::minimum_degree(lower, &order))
+                    .ok());
+  std::vector<uint8_t> seen(m.n, 0);
+  fuzz::require(order.size() == m.n);
+  for (const uint32_t column : order) fuzz::require(column < m.n && seen[column]++ == 0);
+
+  std::vector<double> x(size_t{m.n} * columns, 1.0), y = x;
+  sparse::Cholesky cholesky(context);
+  sparse::Ldl ldl(context);
+  const Status first = solve(lower, order, &cholesky, &x, columns);
+  const Status second = solve(lower, order, &ldl, &y, columns);
+  if (!dominant) return;
+  fuzz::require(first.ok() && second.ok());
+  for (size_t i = 0; i < x.size(); ++i) fuzz::require(std::fabs(x[i] - y[i]) < 1e-9);
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  fuzz::Bytes bytes(data, size);
+  scenes::FaultyAllocator heap;
+  {
+    Context context({heap.allocate, heap.release, &heap}, size_t{1} << 26, {});
+    check(context, bytes);
+  }
+  fuzz::require(heap.clean());
+  return 0;
+}
