@@ -502,8 +502,7 @@ TEST_CASE("every component has a noise of its own") {
     const char* name;
     double large_noise, small_radius, small_noise;
   };
-  // The noise in the last is less than rounding can show beside the other's, and more than the
-  // whole of the tiny circle is in the first.
+  // In the first and the last case the large circle's noise is more than the whole tiny circle.
   const Case cases[] = {{"quiet and tiny beside noisy", 0.01, 0.004, 0.0},
                         {"noisy and tiny beside quiet", 0.0, 0.01, 0.0002},
                         {"equally noisy", 0.005, 1.0, 0.005},
