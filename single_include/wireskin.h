@@ -205,15 +205,17 @@ enum {
   WSK_SMOOTHING_DEFAULT = 0,
   /* The samples are exact: curves interpolate them and nodes keep their bits. */
   WSK_SMOOTHING_NONE = 1,
-  /* One smoothing spline over the whole network, whose strength is found by generalised cross
-     validation, for positions and normals separately; nodes move with their curves. Samples without
-     noise stay as they are, bit for bit; so do all, where smoothing would change the size of a
-     curve by more than a fifth (a tiny part beside a large one). With sharp curves in the network
-     only positions are smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with
-     Spline Functions", 1979. */
+  /* One smoothing spline over each connected component of the network, whose strength is found by
+     generalised cross validation, for positions and normals separately; nodes move with their
+     curves. Samples without noise stay as they are, bit for bit; so does a component, where
+     smoothing would change the size of a curve by more than a fifth, and one of too few samples to
+     tell noise from shape (about eight). With sharp curves in the network only positions are
+     smoothed, normals stay. P. Craven, G. Wahba, "Smoothing Noisy Data with Spline Functions",
+     1979. */
   WSK_SMOOTHING_AUTO = 2,
-  /* The same with the noise of the positions stated in wsk_options.noise; 0 means NONE. Noise
-     that would change the size of a curve by more than a fifth is WSK_ERROR_BAD_ARGUMENT. */
+  /* The same over the whole network at once, with the noise of the positions stated in
+     wsk_options.noise; 0 means NONE. Noise that would change the size of a curve by more than a
+     fifth is WSK_ERROR_BAD_ARGUMENT. */
   WSK_SMOOTHING_GIVEN = 3,
   WSK_SMOOTHING_COUNT = 4
 };
@@ -1689,7 +1691,7 @@ namespace wireskin::network {
 
 /* The samples of all curves one after the other, and which of them are kept. */
 struct KeptSamples {
-  Span<const uint32_t> start;       /* curve c has the samples start[c] .. start[c + 1) */
+  Span<const uint32_t> start;       /* of each curve: its first sample */
   Span<const uint32_t> kept_start;  /* of which kept[kept_start[c] .. kept_start[c + 1]) are read, */
   Span<const uint32_t> kept;        /* counted from the curve's first sample, in order along it */
   Span<const uint32_t> node;        /* of each sample, k_none for ordinary ones */
@@ -1718,6 +1720,8 @@ class Roughness {
 
   /* After this the smoothed values are at hand. `residuals` may be null. */
   Status smooth(double lambda, Residuals* residuals);
+  /* Whether they change the extent of any curve by more than the part `tolerated` of it. */
+  bool changes_sizes(const KeptSamples& samples, double tolerated) const;
   /* Writes them to all copies of each sample. */
   void write_positions(const KeptSamples& samples) const;
   void write_normals(const KeptSamples& samples) const;
@@ -1765,17 +1769,17 @@ class Roughness {
 /* ======== end src/network/roughness.h ======== */
 
 /* ======== begin src/network/smoothing.h ======== */
-/* Noise taken out of sampled curves and their normals: one smoothing spline over the whole network, */
-/* its weight found by generalised cross validation, separately for positions and normals. */
+/* Noise taken out of sampled curves and their normals: a smoothing spline over every connected */
+/* component of the network, its weight found by generalised cross validation, separately for */
+/* positions and normals; or one over the whole network where the noise is stated. */
 /* */
 /* In: thinned samples; those of a node agree and stay one. Out, in place: smoothed positions and */
-/* unit normals, all copies of a node the same bit for bit, and how much noise was found. Where not */
-/* even the least weight pays, or there are too few samples to tell noise from shape, they are left */
-/* as they are. Closed curves are smoothed across their ends. Sharp turns survive where curves end, */
-/* as nothing is asked across an end, and at samples marked as corners; elsewhere they are rounded. */
-/* Scaling the positions by a power of two scales the result exactly. Cost: an analysis */
-/* and some twenty factorisations where there are many samples, a hundred at most. */
-/* */
+/* unit normals, all copies of a node the same bit for bit, and how much noise was found. Components */
+/* stay as they are where not even the least weight pays, where there are too few samples to tell */
+/* noise from shape, and where a curve would change its size. Closed curves are smoothed across */
+/* their ends; sharp turns survive at ends and corners only. Scaling the positions by a power of two */
+/* scales the result exactly. Cost: an analysis and some twenty factorisations where there are many */
+/* samples, a hundred at most. */
 /* Sources: P. Craven, G. Wahba, "Smoothing Noisy Data with Spline Functions", 1979; V. Morozov, "On */
 /* the Solution of Functional Equations by the Method of Regularization", 1966, for given noise. */
 
@@ -1792,14 +1796,17 @@ struct SmoothingOptions {
   double sigma = 0.0;  /* standard deviation of each component of the given positions */
 };
 
+/* Of several connected components the mean squares of the noise, and the greatest weights. */
 struct SmoothingReport {
-  double sigma_position = 0.0;  /* standard deviations of a component as found */
+  double sigma_position = 0.0;  /* standard deviations of a coordinate as found */
   double sigma_normal = 0.0;
   double lambda_position = 0.0;  /* weights used, in cubes of the median spacing; 0: untouched */
   double lambda_normal = 0.0;
   bool filtered = false;  /* spacings were too noisy themselves and have been filtered */
 };
 
+/* Fails with bad_argument where the noise stated would change the extent of a curve by more than a */
+/* fifth. After a failure some components may be smoothed already. */
 Status smooth_samples(Context& context, const KeptSamples& samples, const SmoothingOptions& options,
                       SmoothingReport* report);
 
@@ -2182,10 +2189,8 @@ class Cholesky {
   Supernodes supernodes_;
   Fronts fronts_;
   Array<double> value_;      /* the panels */
-  Array<double> workspace_;  /* the update matrices */
+  Array<double> workspace_;  /* the update matrices; in solve() the right-hand sides */
   Array<double> scratch_;    /* of the kernels, for each thread */
-  Array<double> permuted_;   /* the right-hand sides in elimination order */
-  Array<double> tail_;       /* those of the rows below one supernode */
 };
 
 }  /* namespace wireskin::sparse */
@@ -2257,11 +2262,11 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
 /* minimises the Dirichlet energy of W L v, with L W (-L) W L (targets zero). L is the integrated */
 /* cotangent Laplacian, w the inverse vertex areas; a weight of zero leaves a row out. K is positive */
 /* definite when every component holds a vertex and the free rows stay in. One factor serves any */
-/* number of right-hand sides; new weights keep the ordering and the symbolic analysis. Where the */
-/* factor of K would not fit under the memory cap, conjugate gradients take its place, with the */
-/* inverse of L_ff W^-1 L_ff as preconditioner: the factor of L_ff is a quarter of K's. Cost: see */
-/* sparse/cholesky.h. Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform */
-/* Modeling", 2004. */
+/* number of fields, several in one sweep; new weights keep the ordering and the symbolic analysis. */
+/* Where the factor of K would not fit under the memory cap, conjugate gradients take its place, */
+/* with the inverse of L_ff W^-1 L_ff as preconditioner (order 3: one factor more): the factor of */
+/* L_ff is a quarter of K's. Order 1 has no way out but the status. Cost: see sparse/cholesky.h. */
+/* Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004. */
 
 namespace wireskin::smooth {
 
@@ -2271,6 +2276,14 @@ enum class Order { one = 1, two = 2, three = 3 };
 struct Places {
   Span<const Vec3> position;
   Span<const uint32_t> patch;
+};
+
+/* One vector field to solve for. In: the held values, the target of every row (empty: zero), and */
+/* where penalties draw to. Out: the free values. */
+struct Field3 {
+  Span<const Vec3> target;
+  Span<const Vec3> anchor;
+  Span<Vec3> value;
 };
 
 class System {
@@ -2283,9 +2296,7 @@ class System {
         factor_(context),
         weight_(context),
         penalty_(context),
-        rhs_(context),
-        solution_(context),
-        work_(context) {}
+        block_(context) {}
 
   /* `laplacian` must outlive the system. Numbers the unknowns. Where the vertices stand decides */
   /* nothing but the order of elimination; without it that is general and slower. */
@@ -2294,22 +2305,24 @@ class System {
   /* Assembles and factors with these row weights, and a penalty for each vertex (empty: none); may */
   /* be called again. */
   Status factor(Span<const double> weight, Span<const double> penalty);
-  /* In: the held values, the target of every row (empty: zero), and where penalties draw to. Out: */
-  /* the free values. `residual`: the greatest relative residual of the three columns after one step */
-  /* of refinement where needed. */
+  /* `residual`: the greatest relative residual of all columns, after one step of refinement where */
+  /* needed. */
+  Status solve(Span<const Field3> fields, double* residual);
   Status solve(Span<const Vec3> target, Span<const Vec3> anchor, Span<Vec3> value,
-               double* residual);
+               double* residual) {
+    const Field3 field = {target, anchor, value};
+    return solve({&field, 1}, residual);
+  }
 
  private:
-  Status right_hand_side(Span<const Vec3> target, Span<const Vec3> value);
-  void store_right_hand_side(Span<const Vec3> values);
+  Status find_gradients(Span<const Field3> fields, double* squares);
+  void add_solutions(Span<const Field3> fields) const;
   void add_penalties();
   Status find_order(const sparse::Csc& matrix, Array<uint32_t>* order) const;
   Status analyse();
   Status prepare_iteration();
-  Status iterate();
-  static Status apply_laplacian_pair(void* self, Span<const double> x, Span<double> y);
-  double residual_of(Span<double> residual) const;
+  Status iterate(size_t columns);
+  static Status apply_laplacian_inverses(void* self, Span<const double> x, Span<double> y);
 
   const sparse::Csc* laplacian_ = nullptr;
   Order order_ = Order::two;
@@ -2322,8 +2335,8 @@ class System {
   sparse::Csc matrix_;
   sparse::Cholesky factor_;
   Array<double> weight_;
-  Array<double> penalty_;                /* of each vertex, or empty */
-  Array<double> rhs_, solution_, work_;  /* three columns, row by row */
+  Array<double> penalty_;  /* of each vertex, or empty */
+  Array<double> block_;    /* right-hand sides, then solutions: three columns a field, row by row */
 };
 
 }  /* namespace wireskin::smooth */
@@ -2371,7 +2384,8 @@ struct Domain {
   /* Held vertices on open borders whose normal is not known (any value): that of the surface as far */
   /* as it is found stands for it. Empty: none. */
   Span<const uint8_t> bare = {};
-  Places places = {};  /* for the order of elimination */
+  Places places = {};                           /* for the order of elimination */
+  Array<mesh::TriangleShape>* spent = nullptr;  /* given back once `shape`, its view, has been read */
 };
 
 /* Position and normal of every vertex: in, those of the held ones; out, all. */
@@ -2937,8 +2951,8 @@ inline constexpr int32_t k_automatic_voids = -1;
 
 struct TopologyOptions {
   int32_t voids = k_automatic_voids;
-  double least_ratio = 1.1;  /* of a void chosen automatically */
-  bool open_walls = false;   /* keep walls with borders that are no curves */
+  double least_ratio = 1.05;  /* of a void chosen automatically: amid 1.03 to 1.1, which do alike */
+  bool open_walls = false;    /* keep walls with borders that are no curves */
 };
 
 struct Topology3 {
@@ -3163,8 +3177,10 @@ Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& re
 /* */
 /* In: a flow and a reconstruction of it, the caller's normals or none. Out: the surface with */
 /* patches, curve edges and the counts of the report. Curves that bound no patch stay in it as curve */
-/* edges. Without normals, and where more than two patches meet at a curve, the remeshed patches are */
-/* the result; curvatures are zero then where the mesh is no manifold. */
+/* edges. Without normals, where more than two patches meet at a curve, where a border is no curve */
+/* and where smoothing would make triangles cross, the remeshed patches are the result; curvatures */
+/* are zero then where the mesh is no manifold. For smoothing, vertices between two samples of a */
+/* curve move off the segment to where the normals at its ends bend it (curved PN triangles). */
 
 namespace wireskin {
 
@@ -4790,7 +4806,7 @@ Status minimum_degree(const Csc& lower, Array<uint32_t>* order);
 /* In: A and B in compressed columns, a weight for each inner index, and the number that each row */
 /* and column of the product has among the unknowns (k_none: left out). Out: the product, columns */
 /* sorted. Entries are summed in ascending inner index. Cost: the multiplications of the product, */
-/* twice (once to count). Source: F. Gustavson, "Two Fast Algorithms for Sparse Matrices: */
+/* and a few more to guess its size. Source: F. Gustavson, "Two Fast Algorithms for Sparse Matrices: */
 /* Multiplication and Permuted Transposition", 1978. */
 
 namespace wireskin::sparse {
@@ -5282,6 +5298,49 @@ Status group_patches(const CurveVertices& vertices, Network* network);
 }  /* namespace wireskin::network */
 /* ======== end src/network/group.h ======== */
 
+/* ======== begin src/network/kept_parts.h ======== */
+/* The kept samples of a network, one connected component after the other: curves that share a node */
+/* are of one component, so that each can be looked at by itself. */
+/* */
+/* In: kept samples. Out: the same in an order of components (by their first curves), each a view */
+/* like that of the whole network but with nodes counted within it. Positions and normals are not */
+/* copied: what is written to a part is written to the network. O(samples). */
+
+namespace wireskin::network {
+
+class KeptParts {
+ public:
+  explicit KeptParts(Context& context)
+      : first_curve_(context),
+        first_kept_(context),
+        start_(context),
+        kept_(context),
+        kept_start_(context),
+        node_(context),
+        closed_(context) {}
+
+  /* `samples` must outlive the parts. */
+  Status split(const KeptSamples& samples);
+
+  uint32_t count() const { return static_cast<uint32_t>(first_curve_.size() - 1); }
+  KeptSamples part(uint32_t p) const;
+
+ private:
+  Status sort_curves(Array<uint32_t>* order);
+  Status copy_curves(Span<const uint32_t> order);
+  Status number_nodes();
+
+  KeptSamples samples_ = {};
+  Array<uint32_t> first_curve_, first_kept_;  /* of each part, in the order of parts */
+  Array<uint32_t> start_, kept_;
+  Array<uint32_t> kept_start_;  /* counted from the part's first; one more for each part */
+  Array<uint32_t> node_;
+  Array<uint8_t> closed_;
+};
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/kept_parts.h ======== */
+
 /* ======== begin src/network/node_normals.h ======== */
 /* Normals for the nodes of sharp curves where not all sides, or none, are known: needed only to put */
 /* the curves round a node in order. */
@@ -5693,8 +5752,9 @@ Status find_arcs(Context& context, const GivenCurves& curves, uint32_t least_edg
 /* the curves. */
 /* */
 /* Unknowns: a displacement u per free vertex and a mean curvature h per vertex. On the mesh split */
-/* along the curves (a held vertex has one row in each patch it touches) the integrated Laplacian of */
-/* the displaced positions is asked to be -2 m h n, and h to have the least square Laplacian: */
+/* along the curves (a held vertex has one row in each patch it touches, on each side of a curve) */
+/* the integrated Laplacian of the displaced positions is asked to be -2 m h n, and h to have the */
+/* least square Laplacian: */
 /*   sum_r (g_r - (L u)_r - 2 m_r h_i(r))^2 / m_r + (c l)^4 h^T (Ls M^-1 Ls) h, */
 /*   g_r = -<(L v)_r + c_r, n_i(r)>, */
 /* and, where the curves foretell H on them (node_curvature.h), c l w (h - H)^2 more. There c_r is */
@@ -5722,6 +5782,7 @@ struct DisplaceInput {
   Span<const uint8_t> bare = {};  /* held, on a border, normal not known; empty: none */
   /* Mean curvature as the nodes foretell it, and its weight, a length; empty: none. */
   Span<const double> foretold_curvature = {}, foretold_weight = {};
+  Span<const uint32_t> inner_edge = {};  /* of curves inside patches, two vertices each */
 
   bool is_bare(uint32_t v) const { return !bare.empty() && bare[v]; }
 };
@@ -5827,6 +5888,7 @@ struct FairMesh {
   /* Free vertices with a place to start from instead of the harmonic one; empty: none. */
   Span<const Vec3> start = {};
   Span<const uint8_t> placed = {};
+  Span<const uint32_t> inner_edge = {};  /* of curves inside patches, two vertices each */
 };
 
 struct FairOptions {
@@ -5943,10 +6005,12 @@ struct Start {
   Span<const mesh::TriangleShape> shape;
   smooth::Metric metric;
   Span<const uint8_t> on_border;
-  /* Of each vertex: roughly where it will stand (for the order of elimination), and exactly where it */
-  /* starts if it is placed. */
+  /* Of each vertex: roughly where it will stand (for the order of elimination), and exactly where */
+  /* it starts if it is placed. */
   Span<const Vec3> position = {};
-  Span<const uint8_t> placed = {};  /* free vertices; empty: none */
+  Span<const uint8_t> placed = {};              /* free vertices; empty: none */
+  Span<const uint32_t> inner_edge = {};         /* of curves inside patches, two vertices each */
+  Array<mesh::TriangleShape>* spent = nullptr;  /* what `shape` views, if it may be given back */
 };
 
 /* Neighbours, the check of the mesh, and the counts that follow from them. */
@@ -6244,17 +6308,24 @@ AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
 Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
                        Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
                        AngleStatistics* dihedral) {
-  Array<uint32_t> twins(context);
-  TRY(find_twins(static_cast<uint32_t>(positions.size()), triangles, &twins));
+  /* Edges of curves have both ends on curves, and so have their triangles: the others are left out. */
+  Array<uint32_t> twins(context), corner(context), own_patch(context);
+  for (size_t t = 0; 3 * t < triangles.size(); ++t) {
+    const uint32_t* v = &triangles[3 * t];
+    if (on_curve[v[0]] + on_curve[v[1]] + on_curve[v[2]] < 2) continue;
+    for (size_t k = 0; k < 3; ++k) TRY(corner.push(v[k]));
+    TRY(own_patch.push(patch[t]));
+  }
+  TRY(find_twins(static_cast<uint32_t>(positions.size()), corner.span(), &twins));
   const auto face = [&](uint32_t h) {
-    const uint32_t* v = &triangles[h / 3 * 3];
+    const uint32_t* v = &corner[h / 3 * 3];
     return cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
   };
   AngleSum sum;
   for (uint32_t h = 0; h < twins.size(); ++h) {
     const uint32_t g = twins[h];
-    if (g == k_none || g < h || (divided && patch[h / 3] == patch[g / 3])) continue;
-    if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
+    if (g == k_none || g < h || (divided && own_patch[h / 3] == own_patch[g / 3])) continue;
+    if (!on_curve[corner[h]] || !on_curve[corner[next_half_edge(h)]]) continue;
     sum.add(angle_between(face(h), face(g)));
   }
   *dihedral = sum.statistics();
@@ -6621,8 +6692,12 @@ static Status measure_gaps(const KeptSamples& samples, bool filtered, Array<doub
 
 Status Roughness::number_unknowns(const KeptSamples& samples) {
   uint32_t nodes = 0;
-  for (const uint32_t node : samples.node) {
-    if (node != k_none && node >= nodes) nodes = node + 1;
+  for (size_t c = 0; c < samples.closed.size(); ++c) {
+    const KeptCurve curve = kept_curve(samples, c);
+    for (uint32_t k = 0; k < curve.count; ++k) {
+      const uint32_t node = samples.node[sample_of(samples, curve, k)];
+      if (node != k_none && node >= nodes) nodes = node + 1;
+    }
   }
   Array<uint32_t> unknown_of_node(*context_);
   TRY(unknown_of_node.assign(nodes, k_none));
@@ -6818,6 +6893,27 @@ Status Roughness::smooth(double lambda, Residuals* residuals) {
   return find_freedom(&residuals->freedom);
 }
 
+bool Roughness::changes_sizes(const KeptSamples& samples, double tolerated) const {
+  for (size_t c = 0; c < samples.closed.size(); ++c) {
+    const KeptCurve curve = kept_curve(samples, c);
+    if (curve.count == 0) continue;
+    const size_t first = size_t{unknown_[curve.first_kept]} * k_columns;
+    double was = 0.0, is = 0.0;  /* greatest distance from the first sample */
+    for (uint32_t k = 1; k < curve.count; ++k) {
+      const size_t at = size_t{unknown_[curve.first_kept + k]} * k_columns;
+      const double* v = value_.data();
+      const double* r = residual_.data();
+      const Vec3 before = {v[at] - v[first], v[at + 1] - v[first + 1], v[at + 2] - v[first + 2]};
+      const Vec3 moved = {r[at] - r[first], r[at + 1] - r[first + 1], r[at + 2] - r[first + 2]};
+      const double old_distance = length(before), new_distance = length(before - moved);
+      was = old_distance > was ? old_distance : was;
+      is = new_distance > is ? new_distance : is;
+    }
+    if (!(std::fabs(is - was) <= tolerated * was)) return true;
+  }
+  return false;
+}
+
 void Roughness::write_positions(const KeptSamples& samples) const {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
@@ -6974,10 +7070,15 @@ static Status choose_weights(WeightSearch* search, const SmoothingOptions& optio
                          variance);
 }
 
+/* Nothing is written where sizes change: the noise found is then shape, or drowned it. */
 static Status apply_weights(WeightSearch* search, const KeptSamples& samples,
-                            const SmoothingReport& report) {
+                            const SmoothingReport& report, bool* keeps_sizes) {
+  constexpr double k_tolerated = 0.2;
+  *keeps_sizes = true;
   if (report.lambda_position > 0.0) {
     TRY(search->roughness.smooth(report.lambda_position, nullptr));
+    *keeps_sizes = !search->roughness.changes_sizes(samples, k_tolerated);
+    if (!*keeps_sizes) return {};
     search->roughness.write_positions(samples);
   }
   if (report.lambda_normal > 0.0) {
@@ -6987,17 +7088,18 @@ static Status apply_weights(WeightSearch* search, const KeptSamples& samples,
   return {};
 }
 
-Status smooth_samples(Context& context, const KeptSamples& samples, const SmoothingOptions& options,
-                      SmoothingReport* report) {
+/* Smooths all the samples with one weight. `unknowns`: how many there are. */
+static Status smooth_together(Context& context, const KeptSamples& samples,
+                              const SmoothingOptions& options, SmoothingReport* report,
+                              uint32_t* unknowns) {
   constexpr uint32_t k_least_rows = 8;  /* fewer second differences are no statistics */
   /* From a noise of about .3 spacings on, the spacings are so noisy themselves that the curve looks */
   /* smooth at its samples, and cross validation finds next to nothing (measured on circles). */
   constexpr double k_drowned = 0.25;
-  *report = {};
-  if (options.noise == Noise::none) return {};
   WeightSearch search(context);
   double variance = 0.0;
   TRY(search.roughness.build(samples, false));
+  *unknowns = search.roughness.unknowns();
   if (search.roughness.rows() < k_least_rows) return {};
   TRY(choose_weights(&search, options, k_positions, report, &variance));
   const double most = k_drowned * search.roughness.spacing();
@@ -7007,7 +7109,53 @@ Status smooth_samples(Context& context, const KeptSamples& samples, const Smooth
     TRY(search.roughness.build(samples, true));
     TRY(choose_weights(&search, options, k_filtered_positions, report, &variance));
   }
-  return apply_weights(&search, samples, *report);
+  bool keeps_sizes = false;
+  TRY(apply_weights(&search, samples, *report, &keeps_sizes));
+  if (keeps_sizes) return {};
+  if (options.noise == Noise::given) {
+    return fail(Code::bad_argument, "the noise stated is too large for the curves");
+  }
+  *report = {};
+  return {};
+}
+
+/* Sums of squares, until all parts are in. */
+static void add_part(const SmoothingReport& part, uint32_t unknowns, SmoothingReport* sum) {
+  sum->sigma_position += unknowns * part.sigma_position * part.sigma_position;
+  sum->sigma_normal += unknowns * part.sigma_normal * part.sigma_normal;
+  if (part.lambda_position > sum->lambda_position) sum->lambda_position = part.lambda_position;
+  if (part.lambda_normal > sum->lambda_normal) sum->lambda_normal = part.lambda_normal;
+  sum->filtered = sum->filtered || part.filtered;
+}
+
+/* One weight for all would wipe a tiny part out beside a large one, and leave or invent noise where */
+/* curves were measured differently. */
+static Status smooth_parts(Context& context, const KeptSamples& samples,
+                           const SmoothingOptions& options, SmoothingReport* report) {
+  KeptParts parts(context);
+  TRY(parts.split(samples));
+  double all = 0.0;
+  for (uint32_t p = 0; p < parts.count(); ++p) {
+    SmoothingReport own;
+    uint32_t unknowns = 0;
+    TRY(smooth_together(context, parts.part(p), options, &own, &unknowns));
+    add_part(own, unknowns, report);
+    all += unknowns;
+    if (p % 64 == 63) TRY(context.checkpoint());
+  }
+  if (!(all > 0.0)) return {};
+  report->sigma_position = std::sqrt(report->sigma_position / all);
+  report->sigma_normal = std::sqrt(report->sigma_normal / all);
+  return {};
+}
+
+Status smooth_samples(Context& context, const KeptSamples& samples, const SmoothingOptions& options,
+                      SmoothingReport* report) {
+  *report = {};
+  if (options.noise == Noise::none) return {};
+  if (options.noise == Noise::estimate) return smooth_parts(context, samples, options, report);
+  uint32_t unknowns = 0;
+  return smooth_together(context, samples, options, report, &unknowns);
 }
 
 }  /* namespace wireskin::network */
@@ -7105,15 +7253,24 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   TRY(column.sum.resize(vertices));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
-  /* A column has its diagonal and at most two entries a triangle. */
-  const size_t most = size_t{vertices} + 2 * triangles.size();
-  if (most >= k_none) return fail(Code::too_large, "the mesh is too large for 32-bit indices");
-  TRY(laplacian->row.reserve(most));
-  TRY(laplacian->value.reserve(most));
+  /* Twice the edges and the diagonal, as long as no more than a few edges are on borders. */
+  size_t room = size_t{vertices} + triangles.size() + triangles.size() / 32;
+  if (size_t{vertices} + 2 * triangles.size() >= k_none) {
+    return fail(Code::too_large, "the mesh is too large for 32-bit indices");
+  }
+  TRY(laplacian->row.reserve(room));
+  TRY(laplacian->value.reserve(room));
   laplacian->row.clear();
   laplacian->value.clear();
   for (uint32_t v = 0; v < vertices; ++v) {
     laplacian->start[v] = static_cast<uint32_t>(laplacian->row.size());
+    /* A column has its diagonal and at most two entries a triangle. */
+    const size_t most = laplacian->row.size() + 1 + size_t{2} * (start[v + 1] - start[v]);
+    if (most > room) {
+      room = most + most / 8;
+      TRY(laplacian->row.reserve(room));
+      TRY(laplacian->value.reserve(room));
+    }
     add_to_column(v, v, 0.0, &column, laplacian);
     for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
       const uint32_t h = corner[k], next = next_half_edge(h), previous = previous_half_edge(h);
@@ -8586,9 +8743,7 @@ Cholesky::Cholesky(Context& context, Instructions instructions)
       fronts_(context),
       value_(context),
       workspace_(context),
-      scratch_(context),
-      permuted_(context),
-      tail_(context) {}
+      scratch_(context) {}
 
 static void invert_order(Span<const uint32_t> order, Span<uint32_t> position) {
   for (uint32_t k = 0; k < order.size(); ++k) position[order[k]] = k;
@@ -8815,33 +8970,34 @@ static DiagonalBlock triangle_at(const double* at, size_t step, uint32_t columns
   return d;
 }
 
-/* y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S. Transposed, a row of y is a column. */
+/* y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S: eight columns at a time, so that the panel */
+/* is read from end to end. Transposed, a row of y is a column. */
 void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
-  const size_t step = supernodes_.column_step(s);
+  const size_t step = supernodes_.column_step(s), bytes = lanes * sizeof(double);
   const double* panel = value_.data() + supernodes_.panel[s];
-  double* own = permuted_.data() + size_t{supernodes_.first[s]} * lanes;
-  for (uint32_t j = 0; j < width; j += k_block) {
-    const uint32_t columns = width - j < k_block ? width - j : k_block;
-    double* x = own + size_t{j} * lanes;
-    if (j > 0) {
-      kernels_.update({lanes, columns, j, own, lanes, panel + j, 1, step, x, lanes, false, false},
-                      scratch_.data());
-    }
-    kernels_.solve_block(triangle_at(panel + j * step + j, step, columns, false), lanes, x, lanes);
-  }
-  if (tail == 0) return;
   const uint32_t* rows = supernodes_.rows(s) + width;
-  double* y = permuted_.data();
-  double* below = tail_.data();
-  const size_t bytes = lanes * sizeof(double);
+  double* y = workspace_.data();
+  double* own = y + size_t{supernodes_.first[s]} * lanes;
+  double* below = y + size_t{n_} * lanes;
   for (uint32_t r = 0; r < tail; ++r) {
     std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, bytes);
   }
-  kernels_.update(
-      {lanes, tail, width, own, lanes, panel + width, 1, step, below, lanes, false, false},
-      scratch_.data());
+  for (uint32_t j = 0; j < width; j += k_block) {
+    const uint32_t columns = width - j < k_block ? width - j : k_block;
+    const uint32_t after = j + columns;
+    const double* block = panel + j * step;
+    double* x = own + size_t{j} * lanes;
+    kernels_.solve_block(triangle_at(block + j, step, columns, false), lanes, x, lanes);
+    const auto subtract = [&](uint32_t row, uint32_t count, double* from) {
+      kernels_.update(
+          {lanes, count, columns, x, lanes, block + row, 1, step, from, lanes, false, false},
+          scratch_.data());
+    };
+    if (after < width) subtract(after, width - after, own + size_t{after} * lanes);
+    if (tail > 0) subtract(width, tail, below);
+  }
   for (uint32_t r = 0; r < tail; ++r) {
     std::memcpy(y + size_t{rows[r]} * lanes, below + size_t{r} * lanes, bytes);
   }
@@ -8853,13 +9009,13 @@ void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
   const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
   const size_t step = supernodes_.column_step(s);
   const double* panel = value_.data() + supernodes_.panel[s];
-  double* own = permuted_.data() + size_t{supernodes_.first[s]} * lanes;
+  double* y = workspace_.data();
+  double* own = y + size_t{supernodes_.first[s]} * lanes;
   if (tail > 0) {
     const uint32_t* rows = supernodes_.rows(s) + width;
-    double* below = tail_.data();
+    double* below = y + size_t{n_} * lanes;
     for (uint32_t r = 0; r < tail; ++r) {
-      std::memcpy(below + size_t{r} * lanes, permuted_.data() + size_t{rows[r]} * lanes,
-                  lanes * sizeof(double));
+      std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, lanes * sizeof(double));
     }
     kernels_.update(
         {lanes, width, tail, below, lanes, panel + width, step, 1, own, lanes, false, false},
@@ -8892,11 +9048,14 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   if (!factored_) return fail(Code::bad_argument, "there is no factor to solve with");
   WIRESKIN_ASSERT(x.size() == size_t{n_} * columns);
   const uint32_t lanes = round_up_rows(columns);
-  TRY(permuted_.resize(size_t{n_} * lanes));
-  TRY(tail_.resize(size_t{tallest_} * lanes));
+  /* The update matrices are done with: their memory holds the right-hand sides in elimination */
+  /* order, and behind them those of the rows below one supernode. */
+  const size_t room = (size_t{n_} + tallest_) * lanes;
+  if (workspace_.size() < room) workspace_.clear();
+  TRY(workspace_.resize(room));
   for (uint32_t k = 0; k < n_; ++k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    double* to = permuted_.data() + size_t{k} * lanes;
+    double* to = workspace_.data() + size_t{k} * lanes;
     for (uint32_t c = 0; c < lanes; ++c) to[c] = c < columns ? from[c] : 0.0;
   }
   size_t work = 0;
@@ -8910,7 +9069,7 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   }
   for (uint32_t k = 0; k < n_; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = permuted_[size_t{k} * lanes + c];
+    for (uint32_t c = 0; c < columns; ++c) to[c] = workspace_[size_t{k} * lanes + c];
   }
   return {};
 }
@@ -9050,8 +9209,19 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
 /* ======== begin src/smooth/system.cpp ======== */
 namespace wireskin::smooth {
 
-/* y = A x for a symmetric matrix with both halves stored: column j is row j. */
+/* y = A x for a symmetric matrix with both halves stored: column j is row j. Where most of x is */
+/* zero, as on meshes of which only the curves are known, the columns of the others are spared. */
 static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+  size_t zeros = 0;
+  for (const Vec3& v : x) zeros += v == Vec3{};
+  if (4 * zeros > 3 * x.size()) {
+    for (Vec3& v : y) v = Vec3{};
+    for (uint32_t j = 0; j < a.cols; ++j) {
+      if (x[j] == Vec3{}) continue;
+      for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
+    }
+    return;
+  }
   for (uint32_t j = 0; j < a.cols; ++j) {
     Vec3 sum;
     for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
@@ -9103,9 +9273,7 @@ Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, 
       patch_.push_reserved(places.patch[v]);
     }
   }
-  TRY(rhs_.resize(size_t{3} * unknowns_));
-  TRY(solution_.resize(size_t{3} * unknowns_));
-  return work_.resize(size_t{3} * unknowns_);
+  return {};
 }
 
 /* Columns begin with their diagonal. */
@@ -9128,7 +9296,7 @@ Status System::analyse() {
     TRY(find_order(matrix_, &order));
     TRY(factor_.analyse(matrix_, order.span()));
   }
-  if (order_ == Order::two && factor_.factor_bytes() > context.room_bytes()) {
+  if (order_ != Order::one && factor_.factor_bytes() > context.room_bytes()) {
     TRY(prepare_iteration());
   }
   place_.free();
@@ -9151,39 +9319,41 @@ Status System::prepare_iteration() {
   return factor_.factor(part);
 }
 
-/* y = (L_ff W L_ff)^-1 x. */
-Status System::apply_laplacian_pair(void* self, Span<const double> x, Span<double> y) {
+/* y = (L_ff W L_ff)^-1 x, for order 3 (L_ff W L_ff W L_ff)^-1 x up to the sign. */
+Status System::apply_laplacian_inverses(void* self, Span<const double> x, Span<double> y) {
   System& system = *static_cast<System*>(self);
   for (size_t i = 0; i < x.size(); ++i) y[i] = x[i];
-  TRY(system.factor_.solve(y, 1));
-  for (size_t v = 0; v < system.weight_.size(); ++v) {
-    const uint32_t i = system.unknown_[v];
-    if (i != k_none && system.weight_[v] > 0.0) y[i] /= system.weight_[v];
+  for (int k = 1; k < static_cast<int>(system.order_); ++k) {
+    TRY(system.factor_.solve(y, 1));
+    for (size_t v = 0; v < system.weight_.size(); ++v) {
+      const uint32_t i = system.unknown_[v];
+      if (i != k_none && system.weight_[v] > 0.0) y[i] /= system.weight_[v];
+    }
   }
   return system.factor_.solve(y, 1);
 }
 
-/* Solves for the three right-hand sides one after the other. */
-Status System::iterate() {
+/* Solves for the right-hand sides one after the other. */
+Status System::iterate(size_t columns) {
   const sparse::CgOptions options = {1e-11, 2000};
   Context& context = weight_.context();
   Array<double> b(context), x(context);
   TRY(b.resize(unknowns_));
   TRY(x.resize(unknowns_));
-  for (size_t c = 0; c < 3; ++c) {
+  for (size_t c = 0; c < columns; ++c) {
     for (size_t i = 0; i < unknowns_; ++i) {
-      b[i] = rhs_[3 * i + c];
+      b[i] = block_[columns * i + c];
       x[i] = 0.0;
     }
     sparse::CgResult result;
     TRY(sparse::conjugate_gradients(context, sparse::symmetric_operator(matrix_),
-                                    {&apply_laplacian_pair, this}, b.span(), x.span(), options,
+                                    {&apply_laplacian_inverses, this}, b.span(), x.span(), options,
                                     &result));
     context.count_iterations(result.iterations);
     if (!(result.residual <= 1e-6)) {
       return fail(Code::memory_cap, "the memory cap leaves no room for the factor of the system");
     }
-    for (size_t i = 0; i < unknowns_; ++i) solution_[3 * i + c] = x[i];
+    for (size_t i = 0; i < unknowns_; ++i) block_[columns * i + c] = x[i];
   }
   return {};
 }
@@ -9220,92 +9390,98 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
     TRY(analyse());
   }
   if (iterative_) return {};
+  /* The factor is the greatest thing in memory: what it does not need goes before it, or after. */
+  matrix_.row.free();
   Status factored = factor_.factor(matrix_);
+  matrix_.value.free();
   factored.place = {};  /* a column of ours means nothing to the caller */
   return factored;
 }
 
-void System::store_right_hand_side(Span<const Vec3> values) {
-  for (size_t v = 0; v < values.size(); ++v) {
-    if (unknown_[v] == k_none) continue;
-    double* row = &rhs_[size_t{3} * unknown_[v]];
-    row[0] = values[v].x, row[1] = values[v].y, row[2] = values[v].z;
-  }
-}
-
-/* L W (T - L v) at the free vertices, v with the free values at zero; for order 3, L W L W L v. */
-Status System::right_hand_side(Span<const Vec3> target, Span<const Vec3> value) {
+/* Minus the gradients of the energies at the values that the fields have, among the unknowns, and */
+/* the square of each column: L W (T - L v), for order 1 L v, for order 3 L W L W L v. With the free */
+/* values at zero these are the right-hand sides, with a solution its residuals. */
+Status System::find_gradients(Span<const Field3> fields, double* squares) {
   Context& context = weight_.context();
+  const size_t columns = 3 * fields.size(), n = unknown_.size();
   Array<Vec3> a(context), b(context);
-  TRY(a.resize(value.size()));
-  TRY(b.resize(value.size()));
-  for (size_t v = 0; v < value.size(); ++v) a[v] = unknown_[v] == k_none ? value[v] : Vec3{};
-  multiply_vectors(*laplacian_, a.span(), b.span());
-  if (order_ == Order::one) {
-    store_right_hand_side(b.span());
-    return {};
+  TRY(a.resize(n));
+  TRY(b.resize(n));
+  for (size_t f = 0; f < fields.size(); ++f) {
+    const Field3& field = fields[f];
+    multiply_vectors(*laplacian_, field.value, a.span());
+    for (int k = 1; k < static_cast<int>(order_); ++k) {
+      const bool aims = k == 1 && !field.target.empty();
+      for (size_t v = 0; v < n; ++v) b[v] = weight_[v] * (aims ? field.target[v] - a[v] : -a[v]);
+      multiply_vectors(*laplacian_, b.span(), a.span());
+    }
+    Vec3 sum;
+    for (size_t v = 0; v < n; ++v) {
+      if (unknown_[v] == k_none) continue;
+      Vec3 g = a[v];
+      if (!penalty_.empty() && penalty_[v] != 0.0) {
+        g += penalty_[v] * (field.anchor[v] - field.value[v]);
+      }
+      double* row = &block_[columns * unknown_[v] + 3 * f];
+      row[0] = g.x, row[1] = g.y, row[2] = g.z;
+      sum += Vec3{g.x * g.x, g.y * g.y, g.z * g.z};
+    }
+    squares[3 * f] = sum.x, squares[3 * f + 1] = sum.y, squares[3 * f + 2] = sum.z;
+    TRY(context.checkpoint());
   }
-  for (size_t v = 0; v < value.size(); ++v) {
-    const Vec3 missing = target.empty() ? -b[v] : target[v] - b[v];
-    b[v] = weight_[v] * missing;
-  }
-  multiply_vectors(*laplacian_, b.span(), a.span());
-  if (order_ == Order::three) {
-    for (size_t v = 0; v < value.size(); ++v) b[v] = -weight_[v] * a[v];
-    multiply_vectors(*laplacian_, b.span(), a.span());
-  }
-  store_right_hand_side(a.span());
   return {};
 }
 
-/* What the solution leaves of the right-hand side, and its size relative to that, the greatest of */
-/* the three columns. */
-double System::residual_of(Span<double> residual) const {
-  sparse::multiply_symmetric(matrix_, solution_.span(), residual, 3);
-  double left[3] = {}, whole[3] = {};
-  for (size_t i = 0; i < residual.size(); ++i) {
-    residual[i] = rhs_[i] - residual[i];
-    left[i % 3] += residual[i] * residual[i];
-    whole[i % 3] += rhs_[i] * rhs_[i];
+void System::add_solutions(Span<const Field3> fields) const {
+  const size_t columns = 3 * fields.size();
+  for (size_t v = 0; v < unknown_.size(); ++v) {
+    if (unknown_[v] == k_none) continue;
+    const double* row = &block_[columns * unknown_[v]];
+    for (const Field3& field : fields) {
+      field.value[v] += Vec3{row[0], row[1], row[2]};
+      row += 3;
+    }
   }
+}
+
+static double greatest_ratio(const double* left, const double* whole, size_t columns) {
   double worst = 0.0;
-  for (int c = 0; c < 3; ++c) {
+  for (size_t c = 0; c < columns; ++c) {
     const double ratio = whole[c] > 0.0 ? std::sqrt(left[c] / whole[c]) : 0.0;
     if (!(ratio <= worst)) worst = ratio;  /* not a number stays */
   }
   return worst;
 }
 
-Status System::solve(Span<const Vec3> target, Span<const Vec3> anchor, Span<Vec3> value,
-                     double* residual) {
+Status System::solve(Span<const Field3> fields, double* residual) {
+  constexpr size_t k_most = 2;
+  double whole[3 * k_most], left[3 * k_most];
+  const size_t columns = 3 * fields.size();
+  WIRESKIN_ASSERT(fields.size() <= k_most);
   TRY(weight_.context().enter(Stage::solve));
   *residual = 0.0;
   if (unknowns_ == 0) return {};
-  TRY(right_hand_side(target, value));
-  for (size_t v = 0; v < penalty_.size(); ++v) {
-    if (unknown_[v] == k_none || penalty_[v] == 0.0) continue;
-    double* row = &rhs_[size_t{3} * unknown_[v]];
-    row[0] += penalty_[v] * anchor[v].x;
-    row[1] += penalty_[v] * anchor[v].y;
-    row[2] += penalty_[v] * anchor[v].z;
+  for (const Field3& field : fields) {
+    for (size_t v = 0; v < unknown_.size(); ++v) {
+      if (unknown_[v] != k_none) field.value[v] = Vec3{};
+    }
   }
+  TRY(block_.resize(columns * unknowns_));
+  TRY(find_gradients(fields, whole));
   if (iterative_) {
-    TRY(iterate());
+    TRY(iterate(columns));
   } else {
-    TRY(solution_.copy(rhs_.span()));
-    TRY(factor_.solve(solution_.span(), 3));
+    TRY(factor_.solve(block_.span(), static_cast<uint32_t>(columns)));
   }
-  *residual = residual_of(work_.span());
+  add_solutions(fields);
+  TRY(find_gradients(fields, left));
+  *residual = greatest_ratio(left, whole, columns);
   const double good = unknowns_ <= 30000 ? 1e-12 : unknowns_ <= 300000 ? 1e-11 : 1e-10;
   if (!iterative_ && *residual > good) {  /* one step of iterative refinement */
-    TRY(factor_.solve(work_.span(), 3));
-    for (size_t i = 0; i < work_.size(); ++i) solution_[i] += work_[i];
-    *residual = residual_of(work_.span());
-  }
-  for (size_t v = 0; v < value.size(); ++v) {
-    if (unknown_[v] == k_none) continue;
-    const double* row = &solution_[size_t{3} * unknown_[v]];
-    value[v] = {row[0], row[1], row[2]};
+    TRY(factor_.solve(block_.span(), static_cast<uint32_t>(columns)));
+    add_solutions(fields);
+    TRY(find_gradients(fields, left));
+    *residual = greatest_ratio(left, whole, columns);
   }
   return {};
 }
@@ -9396,31 +9572,47 @@ static Status estimate_bare_normals(Context& context, const Domain& domain, cons
   return {};
 }
 
+static void make_unit(const Domain& domain, const Field& field) {
+  for (size_t v = 0; v < domain.held.size(); ++v) {
+    if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
+  }
+}
+
+/* In the planes there are no conormals, and nothing to aim at. */
+static Status aim_at_conormals(Context& context, const Domain& domain, const Field& field,
+                               Guided* guided) {
+  if (domain.metric == Metric::planes) return {};
+  const size_t n = field.position.size();
+  TRY(guided->conormal.assign(n, Vec3{}));
+  TRY(guided->target.resize(n));
+  TRY(add_conormals(context, domain, field, guided->conormal.span()));
+  for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
+  return {};
+}
+
 /* Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor */
-/* serves both; soft ones pull normals and positions by springs of their own. */
+/* and one sweep serve both; soft ones pull normals and positions by springs of their own. */
 static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
                         double* residual) {
-  const size_t n = field.position.size();
   Array<double> penalty(context);
   if (!domain.bare.empty()) {
     TRY(estimate_bare_normals(context, domain, field, guided, residual));
   }
-  TRY(guided->conormal.assign(n, Vec3{}));
-  TRY(guided->target.resize(n));
   TRY(penalties(domain, 2, true, &penalty));
   TRY(guided->system.factor(guided->weight.span(), penalty.span()));
-  TRY(guided->system.solve({}, domain.soft.normal, field.normal, residual));
-  for (size_t v = 0; v < n; ++v) {
-    if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
+  const Field3 normals = {{}, domain.soft.normal, field.normal};
+  if (!domain.soft.any()) {  /* the normals along borders are known */
+    TRY(aim_at_conormals(context, domain, field, guided));
+    const Field3 both[] = {normals, {guided->target.span(), {}, field.position}};
+    TRY(guided->system.solve({both, 2}, residual));
+    make_unit(domain, field);
+    return {};
   }
-  if (domain.metric == Metric::space) {
-    TRY(add_conormals(context, domain, field, guided->conormal.span()));
-  }
-  for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
-  if (domain.soft.any()) {
-    TRY(penalties(domain, 2, false, &penalty));
-    TRY(guided->system.factor(guided->weight.span(), penalty.span()));
-  }
+  TRY(guided->system.solve({&normals, 1}, residual));
+  make_unit(domain, field);
+  TRY(aim_at_conormals(context, domain, field, guided));
+  TRY(penalties(domain, 2, false, &penalty));
+  TRY(guided->system.factor(guided->weight.span(), penalty.span()));
   return guided->system.solve(guided->target.span(), domain.soft.position, field.position,
                               residual);
 }
@@ -9430,10 +9622,13 @@ static Status propagate(Context& context, const Domain& domain, const Field& fie
 static Status fit(Context& context, const Domain& domain, Method method, const Field& field,
                   Guided* guided, double* residual) {
   const bool clamped = method == Method::clamped;
+  const bool has_conormals = !guided->conormal.empty();
+  TRY(guided->target.resize(field.position.size()));
   for (size_t v = 0; v < field.position.size(); ++v) {
     const bool guides = !clamped || domain.on_curve[v];
     const double scale = guides ? -2.0 * guided->area[v] * guided->curvature[v] : 0.0;
-    guided->target[v] = scale * field.normal[v] - guided->conormal[v];
+    guided->target[v] = scale * field.normal[v];
+    if (has_conormals) guided->target[v] -= guided->conormal[v];
     if (clamped && domain.on_curve[v]) guided->weight[v] *= k_clamp_penalty;
   }
   if (clamped) {
@@ -9456,6 +9651,7 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
   TRY(guided.area.resize(n));
   TRY(guided.weight.resize(n));
   mesh::mixed_voronoi_areas(domain.triangle, domain.shape, guided.area.span());
+  if (domain.spent != nullptr) domain.spent->free();
   row_weights(domain, uses_normals && domain.metric == Metric::space, guided.area.span(),
               guided.weight.span());
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
@@ -9491,6 +9687,18 @@ static Status list_curve_edges(const network::Network& network,
       TRY(surface->curve_edge.push(network::segment_vertex(network, vertices, s, k)));
       TRY(surface->curve_edge.push(network::segment_vertex(network, vertices, s, k + 1)));
       TRY(surface->curve_edge_curve.push(network.segment[s].curve));
+    }
+  }
+  return {};
+}
+
+/* The edges of curves inside patches. */
+static Status list_inner_edges(const network::Network& network,
+                               const network::CurveVertices& vertices, Array<uint32_t>* edges) {
+  for (uint32_t s : network.inner.item) {
+    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+      TRY(edges->push(network::segment_vertex(network, vertices, s, k)));
+      TRY(edges->push(network::segment_vertex(network, vertices, s, k + 1)));
     }
   }
   return {};
@@ -9593,7 +9801,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   mesh::Topology topology(context);
   Constraints constraints(context);
   Array<Vec3> given(context);
-  Array<uint32_t> original(context);
+  Array<uint32_t> original(context), inner_edge(context);
 
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
@@ -9613,6 +9821,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(context.enter(Stage::patches));
   TRY(make_patches(fitted, settings, &nodes, &network, &vertices, &patches, &original, surface));
   TRY(list_curve_edges(network, vertices, surface));
+  TRY(list_inner_edges(network, vertices, &inner_edge));
   counts->patches = network.patches();
   counts->free_vertices = patches.vertices - patches.curve_vertices;
   TRY(take_vertices(vertices, patches, surface));
@@ -9623,13 +9832,16 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
 
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
-                       patches.start.span(), patches.placed.span()};
+                       patches.start.span(), patches.placed.span(),  inner_edge.span(),
+                       &patches.shape};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
                                    surface->position.span(), &creased));
     TRY(smooth_creased(context, start, constraints, settings.method, &creased, surface));
   } else {
+    patches.triangle.free();  /* the surface has its own */
+    patches.patch.free();
     TRY(smooth_surface(context, start, constraints, settings.method, surface));
   }
   TRY(verify_surface(context, network, surface->position.span(), *surface));
@@ -10863,7 +11075,39 @@ static double edge_length(const Complex& complex, uint32_t e) {
                 complex.point[complex.edge[2 * size_t{e} + 1]]);
 }
 
-/* Whether the wall that a creator lies in ends on curves. */
+/* Toggles the wall's border in `odd`, chords replaced by the path along the curve, and counts. */
+static size_t toggle_wall_border(const Complex& complex, const CurveEdges& curves,
+                                 const Sheet& sheet, Span<const uint32_t> wall, Span<uint8_t> odd) {
+  size_t count = 0;
+  const auto toggle = [&](uint32_t e) {
+    odd[e] ^= 1;
+    count += odd[e] != 0 ? size_t{1} : SIZE_MAX;
+  };
+  for (const uint32_t t : wall) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      const uint32_t middle = curves.chord_middle[e];
+      if (!curves.by_curve(e) && sheet.degree[e] == 2) continue;
+      if (curves.on_curve(e) || middle == k_none) {
+        toggle(e);
+        continue;
+      }
+      toggle(find_edge(complex, complex.edge[2 * size_t{e}], middle));
+      toggle(find_edge(complex, middle, complex.edge[2 * size_t{e} + 1]));
+    }
+  }
+  return count;
+}
+
+/* Walls whose border cancels out are ears at curves, or cut off the tip of a junction. */
+static bool is_tip(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
+                   Span<const uint32_t> wall, Span<uint8_t> odd) {
+  const bool tip = toggle_wall_border(complex, curves, sheet, wall, odd) == 0;
+  toggle_wall_border(complex, curves, sheet, wall, odd);
+  return tip;
+}
+
+/* Whether the wall that a creator lies in ends on curves, or at least on chords. */
 static bool bounded_by_curves(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
                               Span<const uint32_t> wall) {
   double whole = 0.0, loose = 0.0;
@@ -10900,9 +11144,10 @@ namespace {
 struct VoidTrial {
   Sheet all, peeled;
   Array<uint32_t> mark, wall;
+  Array<uint8_t> odd;  /* of each edge, zero between uses */
 
   explicit VoidTrial(Context& context)
-      : all(context), peeled(context), mark(context), wall(context) {}
+      : all(context), peeled(context), mark(context), wall(context), odd(context) {}
 };
 
 }  /* namespace */
@@ -10919,6 +11164,7 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_
   if (trial->peeled.in[creator] == 0) return {};
   TRY(flood_patch(complex, curves, trial->peeled, creator, stamp, trial->mark.span(),
                   &trial->wall));
+  if (is_tip(complex, curves, trial->peeled, trial->wall.span(), trial->odd.span())) return {};
   const bool bounded = bounded_by_curves(complex, curves, trial->peeled, trial->wall.span());
   *verdict = bounded ? Verdict::accepted : Verdict::unbounded;
   return {};
@@ -10933,6 +11179,7 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
   Array<uint32_t> unbounded(context);
   TRY(start_sheet(complex, &trial.all));
   TRY(trial.mark.assign(complex.triangle_count(), k_none));
+  TRY(trial.odd.assign(complex.edge_count(), 0));
   chosen->clear();
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial.all);
@@ -12116,11 +12363,24 @@ static Status normals_of_vertices(const flow::Flow& flow, Span<const Vec3> given
   return {};
 }
 
-/* Along arcs normals change evenly from one given sample to the next. */
+/* The point between two samples that their normals bend the segment to: the cubic that is */
+/* orthogonal to both (Vlachos et al., "Curved PN Triangles", 2001). */
+static Vec3 bent(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& normal_q,
+                 double share) {
+  const Vec3 chord = q - p;
+  const Vec3 at_p = (-dot(chord, normal_p)) * normal_p, at_q = dot(chord, normal_q) * normal_q;
+  const double rest = 1.0 - share;
+  return (share * rest) * (rest * at_p + share * at_q);
+}
+
+/* Along arcs normals change evenly from one given sample to the next; vertices between two samples */
+/* leave the segment for where the normals say that the surface is. */
 static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
-                                Span<const uint32_t> vertex_of, Surface* surface) {
+                                Span<const uint32_t> vertex_of, Surface* surface,
+                                Array<Vec3>* offset) {
   const flow::Samples& samples = flow.samples;
   const flow::Arcs& arcs = flow.arcs;
+  TRY(offset->assign(surface->position.size(), Vec3{}));
   Array<Vec3> normal(surface->normal.context());
   TRY(normals_of_vertices(flow, given, &normal));
   for (uint32_t i = 0; i < samples.at.size(); ++i) {
@@ -12128,8 +12388,9 @@ static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
     const double whole = arcs.along[step + 1] - arcs.along[step];
     const double share = whole > 0.0 ? (samples.along[i] - arcs.along[step]) / whole : 0.0;
     const double clamped = smaller(larger(share, 0.0), 1.0);
-    surface->constraint_normal[vertex_of[samples.at[i]]] =
-        unit((1.0 - clamped) * normal[p] + clamped * normal[q]);
+    const uint32_t v = vertex_of[samples.at[i]];
+    surface->constraint_normal[v] = unit((1.0 - clamped) * normal[p] + clamped * normal[q]);
+    (*offset)[v] = bent(arcs.vertex[p], arcs.vertex[q], normal[p], normal[q], clamped);
   }
   return {};
 }
@@ -12165,9 +12426,6 @@ static Status smooth_flow_surface(Context& context, const mesh::Topology& topolo
   TRY(constrained.resize(surface->position.size()));
   for (size_t v = 0; v < constrained.size(); ++v) {
     constrained[v] = surface->vertex_curve[v] != k_none;
-    if (topology.on_border[v] != 0 && constrained[v] == 0) {
-      return fail(Code::unconstrained, "a patch has a border that is no curve");
-    }
   }
   TRY(mesh::triangle_shapes(surface->position.span(), surface->triangle.span(), &shapes));
   const TriangleSet set = {surface->position.span(), surface->constraint_normal.span(),
@@ -12214,6 +12472,25 @@ static void count_flow(const flow::Flow& flow, const flow::Reconstruction& recon
   for (const uint32_t curve : surface->vertex_curve) counts.free_vertices += curve == k_none;
 }
 
+/* Smooths, unless the smoothed surface would cross itself or has borders that nothing holds: then */
+/* all is as before, and *done stays false. */
+static Status try_to_smooth(Context& context, const mesh::Topology& topology,
+                            Span<const Vec3> offset, smooth::Method method, Surface* surface,
+                            bool* done) {
+  Array<Vec3> before(context);
+  Array<uint32_t> pairs(context);
+  for (size_t v = 0; v < topology.on_border.size(); ++v) {
+    if (topology.on_border[v] != 0 && surface->vertex_curve[v] == k_none) return {};
+  }
+  TRY(before.copy(surface->position.span()));
+  for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
+  TRY(smooth_flow_surface(context, topology, method, surface));
+  TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(), 1, &pairs));
+  *done = pairs.empty();
+  if (!*done) surface->position = static_cast<Array<Vec3>&&>(before);
+  return {};
+}
+
 Status surface_from_flow(Context& context, const flow::Flow& flow,
                          const flow::Reconstruction& reconstruction, const FlowSettings& settings,
                          Surface* surface, FlowOutcome* outcome) {
@@ -12226,8 +12503,9 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   }
   TRY(take_flow_curves(flow, outcome->vertex_of.span(), surface));
   TRY(surface->constraint_normal.assign(surface->position.size(), Vec3{}));
+  Array<Vec3> offset(context);
   if (!settings.normal.empty()) {
-    TRY(take_flow_normals(flow, settings.normal, outcome->vertex_of.span(), surface));
+    TRY(take_flow_normals(flow, settings.normal, outcome->vertex_of.span(), surface, &offset));
   }
   mesh::Topology topology(context);
   const Status status = count_topology(static_cast<uint32_t>(surface->position.size()),
@@ -12242,13 +12520,10 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
     return measure_flow_surface(context, topology, measurable, surface);
   }
   TRY(turn_to_normals(context, topology, surface));
-  Array<uint32_t> pairs(context);
-  TRY(smooth_flow_surface(context, topology, settings.method, surface));
-  TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(), 1000,
-                           &pairs));
-  outcome->crossings = static_cast<uint32_t>(pairs.size() / 2);
-  outcome->smoothed = true;
-  return {};
+  TRY(try_to_smooth(context, topology, offset.span(), settings.method, surface,
+                    &outcome->smoothed));
+  if (outcome->smoothed) return {};
+  return measure_flow_surface(context, topology, measurable, surface);
 }
 
 }  /* namespace wireskin */
@@ -14893,20 +15168,27 @@ static Expansion<6> exact_dot(const Vec3& u, const Vec3& v) {
   return exact_product(u.x, v.x) + exact_product(u.y, v.y) + exact_product(u.z, v.z);
 }
 
-/* o.(n x w) = n.(w x o). */
-static Expansion<96> exact_along(const ExactNormal& n, const Vec3& w, const Vec3& o) {
-  const ExactNormal wo = exact_normal(w, o);
-  return n.x * wo.x + n.y * wo.y + n.z * wo.z;
+/* Differences of coordinates are multiples of 2^-152 below 2^151. */
+static constexpr int k_fourth_parts = compact_parts(4, 303);
+static constexpr int k_sixth_parts = compact_parts(6, 303);
+
+static Expansion<k_fourth_parts> exact_normal_dot(const ExactNormal& m, const ExactNormal& n) {
+  Expansion<k_fourth_parts + 8> sum;
+  add_product(m.x, n.x, &sum);
+  add_product(m.y, n.y, &sum);
+  add_product(m.z, n.z, &sum);
+  return fitted<k_fourth_parts>(sum);
 }
 
-/* For vectors that are exact in one double each, as those between near points are. */
+/* For vectors that are exact in one double each, as those between near points are. By the triple */
+/* product o.(n x w) = n.(w x o). */
 static bool inside_triangle_ball_exact(const Vec3& u, const Vec3& v, const Vec3& o) {
   const ExactNormal n = exact_normal(u, v);
-  const Expansion<96> nn = n.x * n.x + n.y * n.y + n.z * n.z;
-  const Expansion<1152> whole = nn * exact_dot(o, o);
-  const Expansion<2304> along =
-      exact_along(n, u, o) * exact_dot(v, v) - exact_along(n, v, o) * exact_dot(u, u);
-  return (whole - along).leading() < 0.0;
+  Expansion<k_sixth_parts + 2 * k_fourth_parts> power;
+  add_product(exact_normal_dot(n, n), exact_dot(o, o), &power);
+  add_product(exact_normal_dot(n, exact_normal(u, o)), -exact_dot(v, v), &power);
+  add_product(exact_normal_dot(n, exact_normal(v, o)), exact_dot(u, u), &power);
+  return power.leading() < 0.0;
 }
 
 static bool exact_vector_between(const Vec3& from, const Vec3& to) {
@@ -16538,6 +16820,9 @@ static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> k
 
 Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const uint8_t> on_border,
                    Span<double> values) {
+  bool any = false;
+  for (uint8_t border : on_border) any = any || border != 0;
+  if (!any) return {};
   Array<uint8_t> known(context);
   Array<Mean> mean(context);
   TRY(known.resize(values.size()));
@@ -17733,6 +18018,10 @@ struct Factors {
   const Csc& b;
   Span<const uint32_t> unknown;
   Part part;
+
+  /* Rows ascend and unknowns are numbered along with them, so a column of the lower part reads the */
+  /* columns of A from their ends up to its own row. */
+  bool ends_at(uint32_t row, uint32_t column) const { return part == Part::lower && row < column; }
 };
 
 }  /* namespace */
@@ -17754,9 +18043,10 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
     const uint32_t inner = factors.b.row[q];
     *work += factors.a.start[inner + 1] - factors.a.start[inner];
     const double scale = factors.weight[inner] * factors.b.value[q];
-    for (uint32_t p = factors.a.start[inner]; p < factors.a.start[inner + 1]; ++p) {
+    for (uint32_t p = factors.a.start[inner + 1]; p-- > factors.a.start[inner];) {
+      if (factors.ends_at(factors.a.row[p], column)) break;
       const uint32_t i = factors.unknown[factors.a.row[p]];
-      if (i == k_none || (factors.part == Part::lower && i < j)) continue;
+      if (i == k_none) continue;
       if (gathered->mark[i] != j) {
         gathered->mark[i] = j;
         gathered->sum[i] = 0.0;
@@ -17767,30 +18057,30 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
   }
 }
 
-/* The number of entries of each column, by marks alone. */
-static Status count_columns(const Factors& factors, Span<uint32_t> mark, Csc* product) {
+/* About the number of entries of the product, from every 32nd column. */
+static uint64_t estimate_entries(const Factors& factors, Accumulator* gathered, size_t* work) {
+  constexpr uint32_t k_step = 32;
   uint64_t total = 0;
   uint32_t j = 0;
-  size_t work = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
     if (factors.unknown[column] == k_none) continue;
-    product->start[j] = static_cast<uint32_t>(total);
-    for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
-      const uint32_t inner = factors.b.row[q];
-      work += factors.a.start[inner + 1] - factors.a.start[inner];
-      for (uint32_t p = factors.a.start[inner]; p < factors.a.start[inner + 1]; ++p) {
-        const uint32_t i = factors.unknown[factors.a.row[p]];
-        if (i == k_none || mark[i] == j || (factors.part == Part::lower && i < j)) continue;
-        mark[i] = j;
-        ++total;
-      }
+    if (j % k_step == 0) {
+      gather_column(factors, column, j, gathered, work);
+      total += gathered->rows.size();
     }
-    if (total >= k_none) return fail(Code::too_large, "the matrix is too large for 32-bit indices");
     ++j;
-    TRY(pause_for_checkpoint(product->start.context(), &work));
   }
-  product->start[j] = static_cast<uint32_t>(total);
-  return {};
+  return total * k_step;
+}
+
+/* Room for one more column, and where there was none, for some more. */
+static Status make_room(size_t more, size_t* room, Csc* product) {
+  const size_t least = product->row.size() + more;
+  if (least >= k_none) return fail(Code::too_large, "the matrix is too large for 32-bit indices");
+  if (least <= *room) return {};
+  *room = least + least / 16;
+  TRY(product->row.reserve(*room));
+  return product->value.reserve(*room);
 }
 
 Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
@@ -17798,29 +18088,30 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   Context& context = product->start.context();
   const Factors factors = {a, weight, b, unknown, part};
   Accumulator gathered(context);
+  size_t work = 0, room = 0;
   TRY(gathered.mark.assign(unknowns, k_none));
   TRY(gathered.sum.resize(unknowns));
   TRY(gathered.rows.reserve(unknowns));
   TRY(product->start.resize(size_t{unknowns} + 1));
-  TRY(count_columns(factors, gathered.mark.span(), product));
-  for (uint32_t& m : gathered.mark) m = k_none;
   product->rows = product->cols = unknowns;
-  TRY(product->row.resize(product->start[unknowns]));
-  TRY(product->value.resize(product->start[unknowns]));
+  product->row.clear();
+  product->value.clear();
+  TRY(make_room(estimate_entries(factors, &gathered, &work), &room, product));
+  for (uint32_t& m : gathered.mark) m = k_none;
   uint32_t j = 0;
-  size_t work = 0;
   for (uint32_t column = 0; column < b.cols; ++column) {
     if (unknown[column] == k_none) continue;
     gather_column(factors, column, j, &gathered, &work);
     sort(gathered.rows.span(), [](uint32_t x, uint32_t y) { return x < y; });
-    const uint32_t first = product->start[j];
-    for (uint32_t k = 0; k < gathered.rows.size(); ++k) {
-      product->row[first + k] = gathered.rows[k];
-      product->value[first + k] = gathered.sum[gathered.rows[k]];
+    TRY(make_room(gathered.rows.size(), &room, product));
+    product->start[j++] = static_cast<uint32_t>(product->row.size());
+    for (const uint32_t i : gathered.rows) {
+      product->row.push_reserved(i);
+      product->value.push_reserved(gathered.sum[i]);
     }
-    ++j;
     TRY(pause_for_checkpoint(context, &work));
   }
+  product->start[unknowns] = static_cast<uint32_t>(product->row.size());
   return {};
 }
 
@@ -20019,6 +20310,128 @@ Status group_patches(const CurveVertices& vertices, Network* network) {
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/group.cpp ======== */
+
+/* ======== begin src/network/kept_parts.cpp ======== */
+namespace wireskin::network {
+
+static Span<const uint32_t> kept_of_curve(const KeptSamples& samples, size_t curve) {
+  const uint32_t first = samples.kept_start[curve];
+  return samples.kept.part(first, samples.kept_start[curve + 1] - first);
+}
+
+static uint32_t count_nodes(const KeptSamples& samples) {
+  uint32_t nodes = 0;
+  for (const uint32_t node : samples.node) {
+    if (node != k_none && node >= nodes) nodes = node + 1;
+  }
+  return nodes;
+}
+
+/* Which part each curve is of, parts being numbered in the order of their first curves. */
+static Status number_parts(const KeptSamples& samples, Array<uint32_t>* part, uint32_t* parts) {
+  const uint32_t curves = static_cast<uint32_t>(samples.closed.size());
+  DisjointSets sets(part->context());
+  Array<uint32_t> curve_of_node(part->context());
+  TRY(sets.reset(curves));
+  TRY(curve_of_node.assign(count_nodes(samples), k_none));
+  TRY(part->resize(curves));
+  for (uint32_t c = 0; c < curves; ++c) {
+    for (const uint32_t k : kept_of_curve(samples, c)) {
+      const uint32_t node = samples.node[samples.start[c] + k];
+      if (node == k_none) continue;
+      if (curve_of_node[node] == k_none) curve_of_node[node] = c;
+      sets.unite(curve_of_node[node], c);
+    }
+  }
+  Array<uint32_t> number(part->context());
+  TRY(number.assign(curves, k_none));
+  *parts = 0;
+  for (uint32_t c = 0; c < curves; ++c) {
+    uint32_t& own = number[sets.find(c)];
+    if (own == k_none) own = (*parts)++;
+    (*part)[c] = own;
+  }
+  return {};
+}
+
+/* The curves part by part, in each in the order given. */
+Status KeptParts::sort_curves(Array<uint32_t>* order) {
+  Array<uint32_t> part(order->context()), fill(order->context());
+  uint32_t parts = 0;
+  TRY(number_parts(samples_, &part, &parts));
+  TRY(first_curve_.assign(size_t{parts} + 1, 0));
+  for (const uint32_t p : part) ++first_curve_[p + 1];
+  for (uint32_t p = 0; p < parts; ++p) first_curve_[p + 1] += first_curve_[p];
+  TRY(fill.copy(first_curve_.span()));
+  TRY(order->resize(part.size()));
+  for (uint32_t c = 0; c < part.size(); ++c) (*order)[fill[part[c]]++] = c;
+  return {};
+}
+
+Status KeptParts::copy_curves(Span<const uint32_t> order) {
+  TRY(start_.resize(order.size()));
+  TRY(closed_.resize(order.size()));
+  TRY(first_kept_.resize(first_curve_.size()));
+  TRY(kept_start_.reserve(order.size() + count()));
+  TRY(kept_.reserve(samples_.kept.size()));
+  kept_start_.clear();
+  kept_.clear();
+  first_kept_[0] = 0;
+  for (uint32_t p = 0; p < count(); ++p) {
+    kept_start_.push_reserved(0);
+    for (uint32_t i = first_curve_[p]; i < first_curve_[p + 1]; ++i) {
+      start_[i] = samples_.start[order[i]];
+      closed_[i] = samples_.closed[order[i]];
+      for (const uint32_t k : kept_of_curve(samples_, order[i])) kept_.push_reserved(k);
+      kept_start_.push_reserved(static_cast<uint32_t>(kept_.size()) - first_kept_[p]);
+    }
+    first_kept_[p + 1] = static_cast<uint32_t>(kept_.size());
+  }
+  return {};
+}
+
+KeptSamples KeptParts::part(uint32_t p) const {
+  const uint32_t first = first_curve_[p], curves = first_curve_[p + 1] - first;
+  const uint32_t first_kept = first_kept_[p];
+  KeptSamples part = samples_;
+  part.start = start_.span().part(first, curves);
+  part.kept_start = kept_start_.span().part(first + p, curves + 1);
+  part.kept = kept_.span().part(first_kept, first_kept_[p + 1] - first_kept);
+  part.node = node_.span();
+  part.closed = closed_.span().part(first, curves);
+  return part;
+}
+
+/* Every node is of one part only, so one array of numbers serves all of them. */
+Status KeptParts::number_nodes() {
+  Array<uint32_t> number(node_.context());
+  TRY(number.assign(count_nodes(samples_), k_none));
+  TRY(node_.assign(samples_.node.size(), k_none));
+  for (uint32_t p = 0; p < count(); ++p) {
+    const KeptSamples own = part(p);
+    uint32_t nodes = 0;
+    for (uint32_t c = 0; c < own.closed.size(); ++c) {
+      for (const uint32_t k : kept_of_curve(own, c)) {
+        const uint32_t sample = own.start[c] + k, node = samples_.node[sample];
+        if (node == k_none) continue;
+        if (number[node] == k_none) number[node] = nodes++;
+        node_[sample] = number[node];
+      }
+    }
+  }
+  return {};
+}
+
+Status KeptParts::split(const KeptSamples& samples) {
+  samples_ = samples;
+  Array<uint32_t> order(start_.context());
+  TRY(sort_curves(&order));
+  TRY(copy_curves(order.span()));
+  return number_nodes();
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/kept_parts.cpp ======== */
 
 /* ======== begin src/network/node_normals.cpp ======== */
 namespace wireskin::network {
@@ -22361,28 +22774,86 @@ struct NormalEquations {
 
 }  /* namespace */
 
+namespace {
+
+/* The edges of curves inside patches, as the other ends of those at each vertex. */
+struct InnerEdges {
+  Array<uint32_t> start, other;
+
+  explicit InnerEdges(Context& context) : start(context), other(context) {}
+  Span<const uint32_t> operator[](uint32_t v) const {
+    return start.empty() ? Span<const uint32_t>{}
+                         : other.span().part(start[v], start[v + 1] - start[v]);
+  }
+};
+
+}  /* namespace */
+
+static Status list_inner_edges(const DisplaceInput& input, InnerEdges* edges) {
+  const Span<const uint32_t> ends = input.inner_edge;
+  if (ends.empty()) return {};
+  TRY(edges->start.assign(input.position.size() + 1, 0));
+  TRY(edges->other.resize(ends.size()));
+  for (uint32_t v : ends) ++edges->start[v];
+  starts_from_counts(edges->start.span());
+  for (uint32_t i = 0; i < ends.size(); ++i) edges->other[edges->start[ends[i]]++] = ends[i ^ 1u];
+  for (size_t v = edges->start.size() - 1; v > 0; --v) edges->start[v] = edges->start[v - 1];
+  edges->start[0] = 0;
+  return {};
+}
+
+/* Gives the corners of v's fan that follow `corner` within its sector the same copy, turning one */
+/* way round v: a sector ends at another patch and at an edge of a curve. */
+static void walk_sector(const DisplaceInput& input, Span<const uint32_t> fan,
+                        Span<const uint32_t> cuts, uint32_t corner, bool forward,
+                        SplitMesh* split) {
+  const uint32_t copy = split->triangle[corner], patch = input.patch[corner / 3];
+  for (bool going = true; going;) {
+    const uint32_t edge = forward ? mesh::previous_half_edge(corner) : mesh::next_half_edge(corner);
+    const uint32_t across = input.triangle[edge];
+    for (uint32_t end : cuts) {
+      if (end == across) return;
+    }
+    going = false;
+    for (uint32_t c : fan) {
+      const uint32_t side = forward ? mesh::next_half_edge(c) : mesh::previous_half_edge(c);
+      const bool next = input.triangle[side] == across && input.patch[c / 3] == patch;
+      if (!next || split->triangle[c] != k_none) continue;
+      split->triangle[c] = copy;
+      corner = c;
+      going = true;
+      break;
+    }
+  }
+}
+
 /* Gives every corner its split vertex: free vertices keep theirs, the corners of a held vertex */
-/* share one in each patch. */
+/* share one in each patch, those of a held vertex on a curve inside the patch one on each side. */
 static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
   Context& context = split->origin.context();
   const uint32_t n = static_cast<uint32_t>(input.position.size());
   Array<uint32_t> start(context), corner(context);
+  InnerEdges inner(context);
   TRY(mesh::find_corners(n, input.triangle, &start, &corner));
-  TRY(split->triangle.resize(input.triangle.size()));
+  TRY(list_inner_edges(input, &inner));
+  TRY(split->triangle.assign(input.triangle.size(), k_none));
   TRY(split->origin.reserve(input.triangle.size()));
   for (uint32_t v = 0; v < n; ++v) {
-    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
-      const uint32_t patch = input.patch[corner[k] / 3];
-      uint32_t copy = k_none;
-      for (uint32_t j = start[v]; j < k && copy == k_none; ++j) {
-        const bool same = !input.on_curve[v] || input.patch[corner[j] / 3] == patch;
-        if (same) copy = split->triangle[corner[j]];
+    const Span<const uint32_t> fan = corner.span().part(start[v], start[v + 1] - start[v]);
+    /* A soft vertex has an unknown, whose column takes no row twice. */
+    const Span<const uint32_t> cuts = input.held[v] ? inner[v] : Span<const uint32_t>{};
+    for (uint32_t k = 0; k < fan.size(); ++k) {
+      uint32_t& copy = split->triangle[fan[k]];
+      for (uint32_t j = 0; j < k && copy == k_none && cuts.empty(); ++j) {
+        const bool same = !input.on_curve[v] || input.patch[fan[j] / 3] == input.patch[fan[k] / 3];
+        if (same) copy = split->triangle[fan[j]];
       }
-      if (copy == k_none) {
-        copy = static_cast<uint32_t>(split->origin.size());
-        split->origin.push_reserved(v);
-      }
-      split->triangle[corner[k]] = copy;
+      if (copy != k_none) continue;
+      copy = static_cast<uint32_t>(split->origin.size());
+      split->origin.push_reserved(v);
+      if (cuts.empty()) continue;
+      walk_sector(input, fan, cuts, fan[k], true, split);
+      walk_sector(input, fan, cuts, fan[k], false, split);
     }
   }
   split->vertices = static_cast<uint32_t>(split->origin.size());
@@ -22552,7 +23023,7 @@ Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const
                                              Span<const double> rhs, Span<double> solution,
                                              bool* solved) {
   /* A factorisation costs as much as some sixty solves. */
-  const sparse::CgOptions options = {1e-9, 40};
+  const sparse::CgOptions options = {1e-10, 40};
   sparse::CgResult result;
   NormalEquations equations(context_, rows, weight);
   TRY(equations.image.resize(rows.rows));
@@ -22596,6 +23067,12 @@ Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const s
   TRY(context_.enter(Stage::factor));
   TRY(order_unknowns(input, matrix, &order));
   TRY(factor_.analyse(matrix, order.span()));
+  order.free();
+  matrix.row.free();
+  if (factor_.factor_bytes() > context_.room_bytes()) {
+    return fail(Code::memory_cap,
+                "the memory cap leaves no room for the factor of the fairing; `stanko` needs less");
+  }
   Status factored = factor_.factor(matrix);
   factored.place = {};  /* a column of ours means nothing to the caller */
   TRY(factored);
@@ -23307,7 +23784,8 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
                                mesh.soft,
                                mesh.bare,
                                foretold.curvature.span(),
-                               foretold.weight.span()};
+                               foretold.weight.span(),
+                               mesh.inner_edge};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
   for (size_t v = 0; v < n; ++v) {
@@ -24023,6 +24501,7 @@ struct Workpiece {
   smooth::Soft soft;
   Span<const Vec3> start = {};
   Span<const uint8_t> placed = {};
+  Span<const uint32_t> inner_edge = {};
 };
 
 }  /* namespace */
@@ -24035,9 +24514,9 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   mesh::patches_of_vertices(piece.triangle, surface->patch.span(), vertex_patch.span());
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
-    const smooth::Domain domain = {piece.triangle, start.shape,     piece.on_curve,
-                                   piece.held,     piece.on_border, start.metric,
-                                   piece.soft,     piece.bare,      places};
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
+                                   piece.on_border, start.metric, piece.soft,     piece.bare,
+                                   places,          start.spent};
     return smooth::smooth(context, domain, method, {piece.position, piece.normal},
                           &counts->residual);
   }
@@ -24059,7 +24538,8 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                  surface->patch_guarded.span(),
                                  places,
                                  piece.start,
-                                 piece.placed};
+                                 piece.placed,
+                                 piece.inner_edge};
   TRY(smooth::fair(context, mesh, counts->patches, options, &report));
   counts->residual = report.residual;
   counts->guarded_patches = report.guarded_patches;
@@ -24100,7 +24580,8 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
                            {constraints.cutoff.span(), constraints.share.span(), anchor.span(),
                             surface->constraint_normal.span(), surface->counts.spacing},
                            start.position,
-                           start.placed};
+                           start.placed,
+                           start.inner_edge};
   TRY(apply_method(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
 }
@@ -24239,27 +24720,6 @@ static void unite_nodes(const CurveSet& set, Span<const uint32_t> node,
   }
 }
 
-/* Whether smoothing changed the extent of any curve by more than a fifth. One strength serves the */
-/* whole network, so a tiny part beside a large one, or noise stated larger than the shape, would be */
-/* wiped out. */
-static bool changes_sizes(const CurveSet& set, Span<const uint32_t> kept_start,
-                          Span<const uint32_t> kept, Span<const Vec3> before) {
-  constexpr double k_tolerated = 0.2;
-  for (uint32_t c = 0; c + 1 < kept_start.size(); ++c) {
-    const uint32_t first = set.start[c] + kept[kept_start[c]];
-    double was = 0.0, is = 0.0;  /* greatest distance from the first sample */
-    for (uint32_t k = kept_start[c]; k < kept_start[c + 1]; ++k) {
-      const uint32_t i = set.start[c] + kept[k];
-      const double old_distance = length(before[i] - before[first]);
-      const double new_distance = length(set.position[i] - set.position[first]);
-      was = old_distance > was ? old_distance : was;
-      is = new_distance > is ? new_distance : is;
-    }
-    if (!(std::fabs(is - was) <= k_tolerated * was)) return true;
-  }
-  return false;
-}
-
 /* Thins all curves, takes the noise out of what is kept, and lets nodes move with their curves. */
 static Status smooth_curves(Context& context, const CurveSet& set, Span<const uint32_t> node,
                             const network::SmoothingOptions& options, Span<network::Node> nodes,
@@ -24280,9 +24740,7 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
   if (options.noise == network::Noise::none) return {};
   /* Where curves are sharp a node has no one normal, so normals stay as they are; the constant */
   /* field in their place has no noise. */
-  Array<Vec3> constant(context), position(context), normal(context);
-  TRY(position.copy(set.position));
-  TRY(normal.copy(set.normal));
+  Array<Vec3> constant(context);
   const bool creased = !set.sharp.empty();
   if (creased) TRY(constant.assign(set.normal.size(), Vec3{0, 0, 1}));
   const Span<Vec3> normals = creased ? constant.span() : set.normal;
@@ -24290,16 +24748,6 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
       context,
       {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, normals},
       options, &counts->noise));
-  if (changes_sizes(set, kept_start->span(), kept->span(), position.span())) {
-    if (options.noise == network::Noise::given) {
-      return fail(Code::bad_argument, "the noise stated is too large for the curves");
-    }
-    for (size_t i = 0; i < position.size(); ++i) {
-      set.position[i] = position[i];
-      set.normal[i] = normal[i];
-    }
-    counts->noise = {};
-  }
   for (size_t i = 0; i < node.size(); ++i) {
     if (node[i] == k_none) continue;
     nodes[node[i]].position = set.position[i];
