@@ -97,6 +97,8 @@ void report_counts(const Counts& counts, const Scale& unscale, wsk_report* repor
   report->dihedral_mean_deg = counts.dihedral.mean;
   report->dihedral_max_deg = counts.dihedral.greatest;
   report->failed_patches = counts.failed_patches;
+  report->ambiguous_patches = counts.ambiguous_patches;
+  report->first_ambiguous_patch = counts.first_ambiguous_patch;
 }
 
 void report_costs(Context& context, wsk_report* report) {
@@ -554,6 +556,7 @@ void wsk_report_init(wsk_report* report, size_t size) {
   defaults.sentence = "";
   defaults.curve = defaults.sample = defaults.node = WSK_NONE;
   defaults.patch = defaults.vertex = defaults.triangle = WSK_NONE;
+  defaults.first_ambiguous_patch = WSK_NONE;
   std::memcpy(report, &defaults, wireskin::api::least(size, sizeof defaults));
 }
 

@@ -150,7 +150,10 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   counts->segments = static_cast<uint32_t>(network.segment.size());
   counts->patches = network.patches();
   TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
-  TRY(network::group_patches(vertices, &network));
+  network::Ambiguity ambiguity;
+  TRY(network::group_patches(vertices, &network, &ambiguity));
+  counts->ambiguous_patches = ambiguity.patches;
+  counts->first_ambiguous_patch = ambiguity.first;
   counts->patches = network.patches();
 
   TRY(context.enter(Stage::patches));

@@ -60,6 +60,7 @@ struct Counts {
   mesh::AngleStatistics normal_deviation;                      // along the curves
   mesh::AngleStatistics dihedral;                              // across the curves
   uint32_t failed_patches = 0;
+  uint32_t ambiguous_patches = 0, first_ambiguous_patch = k_none;
 };
 
 // What is known of each patch, those that could not be made included.

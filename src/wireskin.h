@@ -340,6 +340,10 @@ typedef struct wsk_report {
   double total_ms;
   wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
   uint32_t failed_patches; /* left out because of wsk_options.partial */
+  /* Patches of several loops that might as well have been joined otherwise, or closed each alone:
+     the other choice had less than a tenth more area. WSK_NONE where there is no first one. */
+  uint32_t ambiguous_patches;
+  uint32_t first_ambiguous_patch;
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.

@@ -78,6 +78,7 @@ std::array<Frame, 2> choose_frames(const wsk_surface_view& surface, int up_axis)
 }
 
 Extent extent_in(const Frame& frame, const wsk_surface_view& surface) {
+  if (surface.vertex_count == 0) return {-1.0, 1.0, -1.0, 1.0};  // an empty picture
   const double infinity = std::numeric_limits<double>::infinity();
   Extent extent = {infinity, -infinity, infinity, -infinity};
   for (size_t v = 0; v < surface.vertex_count; ++v) {

@@ -277,6 +277,8 @@ std::string outcome_json(const ReportInput& input, const Outcome& outcome) {
   json.count("guarded_patches", report.guarded_patches);
   json.member("guarded_patch_list", guarded_list(input.surface));
   json.count("failed_patches", report.failed_patches);
+  json.count("ambiguous_patches", report.ambiguous_patches);
+  json.index("first_ambiguous_patch", report.first_ambiguous_patch);
   json.member("special_patches", patches_json(input.surface));
   json.number("noise_position", report.noise_position);
   json.number("noise_normal", report.noise_normal);

@@ -12,6 +12,8 @@ static constexpr double k_clearly_closed = 0.5;
 static constexpr double k_least_facing_cosine = 0.2;
 // And with this one where both loops are of one component, neither of them being closed alone.
 static constexpr double k_least_facing_in_component = 0.6;
+// Choices whose areas differ by less than this part are equally good.
+static constexpr double k_hardly_more = 1.1;
 // Rule 2 looks at this many vertices of a loop at most.
 static constexpr uint32_t k_most_probes = 64;
 
@@ -28,6 +30,7 @@ struct Grouping {
   Array<uint32_t> parent;      // of each patch
   Array<uint8_t> reversed;     // of each patch
   Array<uint32_t> holder;      // of each component that bounds nothing: its patch
+  Array<uint8_t> ambiguous;    // of each patch
 
   Grouping(Context& context, const CurveVertices& of, Network* net)
       : vertices(of),
@@ -37,7 +40,8 @@ struct Grouping {
         component(context),
         parent(context),
         reversed(context),
-        holder(context) {}
+        holder(context),
+        ambiguous(context) {}
   uint32_t root(uint32_t p) {
     while (parent[p] != p) p = parent[p] = parent[parent[p]];
     return p;
@@ -78,6 +82,7 @@ static Status take_components(Grouping* g) {
   TRY(g->component.resize(patches));
   TRY(g->parent.resize(patches));
   TRY(g->reversed.assign(patches, 0));
+  TRY(g->ambiguous.assign(patches, 0));
   TRY(g->holder.assign(g->components.members.count(), k_none));
   for (uint32_t p = 0; p < patches; ++p) {
     g->parent[p] = p;
@@ -270,29 +275,75 @@ static bool share_component(Grouping* g, Span<const Facing> facing, uint32_t a, 
   return false;
 }
 
+namespace {
+
+// How far rule 2 has come.
+struct Pairing {
+  Array<Facing> facing;
+  Array<uint8_t> joined;   // facing
+  Array<uint8_t> decided;  // patch: which side of a ring has the surface
+
+  explicit Pairing(Context& context) : facing(context), joined(context), decided(context) {}
+};
+
+}  // namespace
+
+// What closing the two loops by themselves would cost, as far as they are not joined yet.
+static double cost_alone(const Pairing& pairing, const Band& band) {
+  return (pairing.joined[band.a] ? 0.0 : pairing.facing[band.a].alone) +
+         (pairing.joined[band.b] ? 0.0 : pairing.facing[band.b].alone);
+}
+
+static bool may_join(Grouping* g, const Pairing& pairing, const Band& band) {
+  const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
+  const bool wrong_side = (pairing.decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
+                          (pairing.decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
+  if (!(band.area < cost_alone(pairing, band)) || wrong_side) return false;
+  const bool same = g->component[a.patch] == g->component[b.patch];
+  const bool both_alone = !pairing.joined[band.a] && !pairing.joined[band.b];
+  return same ? both_alone : !share_component(g, pairing.facing.span(), a.patch, b.patch);
+}
+
+// Whether closing the loops alone, or one of the bands that follow, which are larger, was hardly
+// worse than the first band and contradicts it.
+static bool is_ambiguous(Grouping* g, const Pairing& pairing, Span<const Band> bands) {
+  const Band& band = bands[0];
+  if (cost_alone(pairing, band) < k_hardly_more * band.area) return true;
+  const uint32_t own[2] = {pairing.facing[band.a].patch, pairing.facing[band.b].patch};
+  for (size_t i = 1; i < bands.size() && bands[i].area < k_hardly_more * band.area; ++i) {
+    const Facing &a = pairing.facing[bands[i].a], &b = pairing.facing[bands[i].b];
+    for (int k = 0; k < 2; ++k) {
+      const bool reversed = pairing.facing[k == 0 ? band.a : band.b].reversed;
+      // The same loop by its other side, or where it has one side only, with another loop.
+      const bool by_a = a.patch == own[k] && (a.reversed != reversed || b.patch != own[1 - k]);
+      const bool by_b = b.patch == own[k] && (b.reversed != reversed || a.patch != own[1 - k]);
+      if ((by_a || by_b) && may_join(g, pairing, bands[i])) return true;
+    }
+  }
+  return false;
+}
+
 static Status join_facing(Grouping* g) {
   Context& context = g->parent.context();
-  Array<Facing> facing(context);
+  Pairing pairing(context);
   Array<Probe> probes(context);
   Array<Band> bands(context);
-  Array<uint8_t> joined(context), decided(context);
-  TRY(decided.assign(g->parent.size(), 0));  // of rings: which side has the surface
+  Array<uint8_t>&joined = pairing.joined, &decided = pairing.decided;
+  TRY(decided.assign(g->parent.size(), 0));
   for (uint32_t p = 0; p < decided.size(); ++p) {
     if (g->root(p) != p) decided[p] = decided[g->root(p)] = 1;
   }
-  TRY(list_facing(g, decided.span(), &facing, &probes));
-  TRY(list_bands(*g, facing.span(), probes.span(), &bands));
-  TRY(joined.assign(facing.size(), 0));
-  for (size_t i = 0; i < facing.size(); ++i) joined[i] = decided[facing[i].patch];
-  for (const Band& band : bands) {
-    const Facing &a = facing[band.a], &b = facing[band.b];
-    const double alone = (joined[band.a] ? 0.0 : a.alone) + (joined[band.b] ? 0.0 : b.alone);
-    const bool wrong_side = (decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
-                            (decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
-    if (!(band.area < alone) || wrong_side) continue;
-    const bool same = g->component[a.patch] == g->component[b.patch];
-    const bool both_alone = !joined[band.a] && !joined[band.b];
-    if (same ? !both_alone : share_component(g, facing.span(), a.patch, b.patch)) continue;
+  TRY(list_facing(g, decided.span(), &pairing.facing, &probes));
+  TRY(list_bands(*g, pairing.facing.span(), probes.span(), &bands));
+  TRY(joined.assign(pairing.facing.size(), 0));
+  for (size_t i = 0; i < joined.size(); ++i) joined[i] = decided[pairing.facing[i].patch];
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const Band& band = bands[i];
+    if (!may_join(g, pairing, band)) continue;
+    const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
+    if (is_ambiguous(g, pairing, bands.span().part(i, bands.size() - i))) {
+      g->ambiguous[a.patch] = g->ambiguous[b.patch] = 1;
+    }
     decided[a.patch] = decided[b.patch] = 1;
     g->reversed[a.patch] = a.reversed;
     g->reversed[b.patch] = b.reversed;
@@ -394,7 +445,7 @@ static Status list_held(const Grouping& g, Lists* held) {
 }
 
 // Writes the groups as the network's patches, in the order of the least patch of each.
-static Status rebuild(Grouping* g) {
+static Status rebuild(Grouping* g, Ambiguity* ambiguity) {
   Network& old = *g->network;
   Context& context = old.segment.context();
   Network fresh(context);
@@ -413,11 +464,14 @@ static Status rebuild(Grouping* g) {
   });
   TRY(fresh.patch_start.push(0));
   for (size_t first = 0, end = 0; first < order.size(); first = end) {
+    bool ambiguous = false;
     while (end < order.size() && g->root(order[end]) == g->root(order[first])) {
       const uint32_t p = order[end++];
+      ambiguous = ambiguous || g->ambiguous[p];
       TRY(append_loops(*g, p, &fresh.loop));
       TRY(append_inside(*g, p, held[p], piece.span(), &fresh));
     }
+    if (ambiguous && ambiguity->patches++ == 0) ambiguity->first = fresh.patches();
     TRY(fresh.patch_start.push(fresh.loop.count()));
     TRY(fresh.ring.push(end - first == 1 ? old.ring[order[first]] : uint8_t{0}));
     TRY(fresh.inner.close());
@@ -429,7 +483,8 @@ static Status rebuild(Grouping* g) {
   return {};
 }
 
-Status group_patches(const CurveVertices& vertices, Network* network) {
+Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity* ambiguity) {
+  Ambiguity unasked;
   Context& context = network->segment.context();
   Grouping g(context, vertices, network);
   TRY(take_components(&g));
@@ -438,7 +493,7 @@ Status group_patches(const CurveVertices& vertices, Network* network) {
   TRY(join_facing(&g));
   TRY(check_rings(&g));
   TRY(check_holders(g));
-  return rebuild(&g);
+  return rebuild(&g, ambiguity != nullptr ? ambiguity : &unasked);
 }
 
 }  // namespace wireskin::network

@@ -20,8 +20,15 @@
 
 namespace wireskin::network {
 
-// Fails with open_network for pieces that lie in no patch, and for a boundary curve none of whose
-// sides is the inside by its normals.
-Status group_patches(const CurveVertices& vertices, Network* network);
+// Patches of several loops that might as well have been others: how many, and the first of them.
+struct Ambiguity {
+  uint32_t patches = 0;
+  uint32_t first = k_none;
+};
+
+// `ambiguity` may be null. Fails with open_network for pieces that lie in no patch, and for a
+// boundary curve none of whose sides is the inside by its normals.
+Status group_patches(const CurveVertices& vertices, Network* network,
+                     Ambiguity* ambiguity = nullptr);
 
 }  // namespace wireskin::network

@@ -198,6 +198,20 @@ TEST_CASE("loops: a hole, an inner curve, a band, a great circle") {
   CHECK(worst < 1e-2);
 }
 
+TEST_CASE("loops that might as well have been joined otherwise are counted") {
+  for (const double height : {1.5, 7.6}) {  // beyond 8 two domes have less area than the tube
+    CAPTURE(height);
+    Net pair;
+    pair.circle(0, 0, 0, 1, true, true);
+    pair.circle(0, 0, height, 1, true, true);
+    const Built b(pair);
+    REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+    CHECK(b.report.patches == 1);
+    CHECK(b.report.ambiguous_patches == (height > 7.0 ? 1 : 0));
+    CHECK(b.report.first_ambiguous_patch == (height > 7.0 ? 0 : WSK_NONE));
+  }
+}
+
 TEST_CASE("the normals of a dangling curve bind as those of other curves do") {
   Net net = disc();
   net.bump(-2, 2, 0.0);
