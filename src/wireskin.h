@@ -478,12 +478,12 @@ typedef struct wsk_surface_view {
   const uint32_t* triangle_patch;   /* 1 a triangle */
   const uint32_t* curve_edges;      /* 2 an edge: the curves as resampled, in their direction */
   const uint32_t*
-      curve_edge_curve;         /* 1 an edge: the caller's curve; both null for a caller's mesh */
-  const uint8_t* patch_guarded; /* 1 a patch: 1 where it was held back, see guarded_patches; null
-                                   for a caller's mesh and for methods that hold nothing back */
-  /* The five that follow are null for a surface of wsk_flow_surface: see wsk_flow_view. */
-  const uint8_t* patch_way;          /* 1 a patch: WSK_PATCH_... */
-  const wsk_status* patch_status;    /* 1 a patch: WSK_OK, or why it was left out */
+      curve_edge_curve;           /* 1 an edge: the caller's curve; both null for a caller's mesh */
+  const uint8_t* patch_guarded;   /* 1 a patch: 1 where it was held back, see guarded_patches; null
+                                     for a caller's mesh and for methods that hold nothing back */
+  const uint8_t* patch_way;       /* 1 a patch: WSK_PATCH_...; null, like the four that follow, for
+                                     surfaces of a caller's mesh and of a flow */
+  const wsk_status* patch_status; /* 1 a patch: WSK_OK, or why it was left out */
   const char* const* patch_sentence; /* 1 a patch: "", or what was wrong in words; static text */
   const uint32_t* patch_curve_start; /* patch_count + 1: patch p has the caller's curves */
   const uint32_t* patch_curves;      /* patch_curves[patch_curve_start[p]] and so on, ascending */
@@ -769,9 +769,10 @@ typedef struct wsk_flow_view {
   uint32_t bare_count;   /* segments of curve at which no patch lies */
   uint32_t branch_count; /* edges of more than two triangles before remeshing */
   uint32_t held_count;   /* patches that remeshing spared because they would have crossed others */
-  uint32_t crossing_count; /* pairs of triangles that cross: none unless smoothing made them */
+  uint32_t crossing_count; /* pairs of triangles that cross: none but for rounding */
   int32_t manifold; /* non-zero: every edge has at most two triangles, every vertex one fan */
-  int32_t smoothed; /* non-zero: the normals of the curves shaped it */
+  int32_t smoothed; /* non-zero: the normals of the curves shaped it; not where triangles would
+                       have crossed then, or a border is no curve */
   const wsk_flow_patch* patches;
   uint32_t loop_count;
   const uint32_t* loop_first; /* loop l has the runs loop_first[l] .. loop_first[l + 1] */

@@ -189,6 +189,11 @@ std::string flow_json(const FlowSummary& flow) {
   object.member("manifold", view.manifold != 0 ? "true" : "false");
   object.member("smoothed", view.smoothed != 0 ? "true" : "false");
   object.member("voids", voids_json(flow));
+  uint32_t between = 0;  // a wall between two voids makes its curves bound more than two patches
+  for (const wsk_flow_patch& p : flow.patches) {
+    between += p.front != 0 && p.back != 0 && p.front != p.back;
+  }
+  object.count("patches_between_voids", between);
   std::string open;
   for (size_t p = 0; p < flow.patches.size(); ++p) {
     if (flow.patches[p].open == 0) continue;
