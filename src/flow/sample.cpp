@@ -237,10 +237,13 @@ static Status split_encroached(Context& context, const Arcs& arcs, Samples* samp
   TRY(stations->start.push(0));
   *any = false;
   samples->too_short = 0;
+  constexpr uint32_t k_segments_per_checkpoint = 1u << 12;
+  uint32_t looked_at = 0;
   for (uint32_t a = 0; a + 1 < samples->start.size(); ++a) {
     const uint32_t last = samples->start[a + 1] - 1;
     for (uint32_t i = samples->start[a]; i <= last; ++i) {
       TRY(stations->along.push(samples->along[i]));
+      if (++looked_at % k_segments_per_checkpoint == 0) TRY(context.checkpoint());
       if (i == last || !encroached(grid, *samples, i)) continue;
       if (samples->along[i + 1] - samples->along[i] < 2.0 * k_least_segment * arcs.diagonal) {
         ++samples->too_short;
@@ -254,7 +257,6 @@ static Status split_encroached(Context& context, const Arcs& arcs, Samples* samp
       }
     }
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
-    if (a % 256 == 0) TRY(context.checkpoint());
   }
   return {};
 }

@@ -25,7 +25,7 @@ static double expected_points(const Triangulation& t, double spacing) {
 // A fine border adds a few layers of its own.
 static Status limit_vertices(double given, double lattice, size_t* most) {
   const double vertices = 4.0 * lattice + 24.0 * given + 1024.0;
-  if (!(lattice + given < k_most_vertices / 2)) {
+  if (!(lattice + given < 0.5 * k_most_vertices)) {
     return fail(Code::too_large, "the spacing is too small for the size of the patch");
   }
   *most = vertices < k_most_vertices ? static_cast<size_t>(vertices) : k_most_vertices;

@@ -84,7 +84,8 @@ Call run(const Case& hostile_case, wsk_method method, int scale, Way way = Way::
     std::fill(curve.nodes.begin(), curve.nodes.end(), WSK_NONE);
     if (way == Way::flow) curve.normals.clear();
   }
-  scene.spacing = coarse_spacing(scene.curves);
+  scene.spacing = coarse_spacing(scene.curves) * (way == Way::flow ? 4 : 1);
+  scene.most_tetrahedra = 50000;  // curves that run into each other ask for millions
   wsk_options options = scenes::options_of(scene);
   options.method = method;
   Watch watch;
@@ -169,7 +170,9 @@ TEST_CASE("hostile curves through wsk_connect and wsk_flow end in a surface or a
   int runs = 0;
   for (const Way way : {Way::connect, Way::flow}) {
     CAPTURE(static_cast<int>(way));
+    int number = 0;
     for (const Case& base : hostile::all()) {
+      if (!full && way == Way::flow && ++number % 3 != 0) continue;
       CAPTURE(base.name);
       for (int turn = 0; turn < (full ? 6 : 1); ++turn) {
         CAPTURE(turn);

@@ -231,6 +231,7 @@ static wsk_status run_flow(const Scene& scene, const wsk_options& options, wsk_s
   how.sampling = scene.spacing / 2;
   how.voids = scene.voids;
   how.raw = scene.raw;
+  how.most_tetrahedra = scene.most_tetrahedra;
   const std::vector<wsk_curve> curves = curves_of(scene);
   wsk_flow* flow = nullptr;
   wsk_status status = wsk_flow_build(curves.data(), curves.size(), &options, &how, &flow, report);

@@ -50,6 +50,7 @@ struct Scene {
   bool orient = false;
   int32_t voids = WSK_VOIDS_AUTO;
   bool raw = false;
+  uint32_t most_tetrahedra = 0;
   double spacing = 0.0;
   wsk_method method = WSK_METHOD_STANKO;
 
