@@ -346,6 +346,10 @@ typedef struct wsk_report {
   double total_ms;
   wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
   uint32_t failed_patches; /* left out because of wsk_options.partial */
+  /* Patches of several loops that might as well have been joined otherwise, or closed each alone:
+     the other choice had less than a tenth more area. WSK_NONE where there is no first one. */
+  uint32_t ambiguous_patches;
+  uint32_t first_ambiguous_patch;
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
@@ -480,12 +484,12 @@ typedef struct wsk_surface_view {
   const uint32_t* triangle_patch;   /* 1 a triangle */
   const uint32_t* curve_edges;      /* 2 an edge: the curves as resampled, in their direction */
   const uint32_t*
-      curve_edge_curve;         /* 1 an edge: the caller's curve; both null for a caller's mesh */
-  const uint8_t* patch_guarded; /* 1 a patch: 1 where it was held back, see guarded_patches; null
-                                   for a caller's mesh and for methods that hold nothing back */
-  /* The five that follow are null for a surface of wsk_flow_surface: see wsk_flow_view. */
-  const uint8_t* patch_way;          /* 1 a patch: WSK_PATCH_... */
-  const wsk_status* patch_status;    /* 1 a patch: WSK_OK, or why it was left out */
+      curve_edge_curve;           /* 1 an edge: the caller's curve; both null for a caller's mesh */
+  const uint8_t* patch_guarded;   /* 1 a patch: 1 where it was held back, see guarded_patches; null
+                                     for a caller's mesh and for methods that hold nothing back */
+  const uint8_t* patch_way;       /* 1 a patch: WSK_PATCH_...; null, like the four that follow, for
+                                     surfaces of a caller's mesh and of a flow */
+  const wsk_status* patch_status; /* 1 a patch: WSK_OK, or why it was left out */
   const char* const* patch_sentence; /* 1 a patch: "", or what was wrong in words; static text */
   const uint32_t* patch_curve_start; /* patch_count + 1: patch p has the caller's curves */
   const uint32_t* patch_curves;      /* patch_curves[patch_curve_start[p]] and so on, ascending */
@@ -771,9 +775,10 @@ typedef struct wsk_flow_view {
   uint32_t bare_count;   /* segments of curve at which no patch lies */
   uint32_t branch_count; /* edges of more than two triangles before remeshing */
   uint32_t held_count;   /* patches that remeshing spared because they would have crossed others */
-  uint32_t crossing_count; /* pairs of triangles that cross: none unless smoothing made them */
+  uint32_t crossing_count; /* pairs of triangles that cross: none but for rounding */
   int32_t manifold; /* non-zero: every edge has at most two triangles, every vertex one fan */
-  int32_t smoothed; /* non-zero: the normals of the curves shaped it */
+  int32_t smoothed; /* non-zero: the normals of the curves shaped it; not where triangles would
+                       have crossed then, or a border is no curve */
   const wsk_flow_patch* patches;
   uint32_t loop_count;
   const uint32_t* loop_first; /* loop l has the runs loop_first[l] .. loop_first[l + 1] */
@@ -2458,6 +2463,7 @@ struct Counts {
   mesh::AngleStatistics normal_deviation;                      /* along the curves */
   mesh::AngleStatistics dihedral;                              /* across the curves */
   uint32_t failed_patches = 0;
+  uint32_t ambiguous_patches = 0, first_ambiguous_patch = k_none;
 };
 
 /* What is known of each patch, those that could not be made included. */
@@ -5291,9 +5297,16 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
 
 namespace wireskin::network {
 
-/* Fails with open_network for pieces that lie in no patch, and for a boundary curve none of whose */
-/* sides is the inside by its normals. */
-Status group_patches(const CurveVertices& vertices, Network* network);
+/* Patches of several loops that might as well have been others: how many, and the first of them. */
+struct Ambiguity {
+  uint32_t patches = 0;
+  uint32_t first = k_none;
+};
+
+/* `ambiguity` may be null. Fails with open_network for pieces that lie in no patch, and for a */
+/* boundary curve none of whose sides is the inside by its normals. */
+Status group_patches(const CurveVertices& vertices, Network* network,
+                     Ambiguity* ambiguity = nullptr);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/group.h ======== */
@@ -9815,7 +9828,10 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   counts->segments = static_cast<uint32_t>(network.segment.size());
   counts->patches = network.patches();
   TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
-  TRY(network::group_patches(vertices, &network));
+  network::Ambiguity ambiguity;
+  TRY(network::group_patches(vertices, &network, &ambiguity));
+  counts->ambiguous_patches = ambiguity.patches;
+  counts->first_ambiguous_patch = ambiguity.first;
   counts->patches = network.patches();
 
   TRY(context.enter(Stage::patches));
@@ -10858,10 +10874,13 @@ static Status split_encroached(Context& context, const Arcs& arcs, Samples* samp
   TRY(stations->start.push(0));
   *any = false;
   samples->too_short = 0;
+  constexpr uint32_t k_segments_per_checkpoint = 1u << 12;
+  uint32_t looked_at = 0;
   for (uint32_t a = 0; a + 1 < samples->start.size(); ++a) {
     const uint32_t last = samples->start[a + 1] - 1;
     for (uint32_t i = samples->start[a]; i <= last; ++i) {
       TRY(stations->along.push(samples->along[i]));
+      if (++looked_at % k_segments_per_checkpoint == 0) TRY(context.checkpoint());
       if (i == last || !encroached(grid, *samples, i)) continue;
       if (samples->along[i + 1] - samples->along[i] < 2.0 * k_least_segment * arcs.diagonal) {
         ++samples->too_short;
@@ -10875,7 +10894,6 @@ static Status split_encroached(Context& context, const Arcs& arcs, Samples* samp
       }
     }
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
-    if (a % 256 == 0) TRY(context.checkpoint());
   }
   return {};
 }
@@ -19879,6 +19897,8 @@ static constexpr double k_clearly_closed = 0.5;
 static constexpr double k_least_facing_cosine = 0.2;
 /* And with this one where both loops are of one component, neither of them being closed alone. */
 static constexpr double k_least_facing_in_component = 0.6;
+/* Choices whose areas differ by less than this part are equally good. */
+static constexpr double k_hardly_more = 1.1;
 /* Rule 2 looks at this many vertices of a loop at most. */
 static constexpr uint32_t k_most_probes = 64;
 
@@ -19895,6 +19915,7 @@ struct Grouping {
   Array<uint32_t> parent;      /* of each patch */
   Array<uint8_t> reversed;     /* of each patch */
   Array<uint32_t> holder;      /* of each component that bounds nothing: its patch */
+  Array<uint8_t> ambiguous;    /* of each patch */
 
   Grouping(Context& context, const CurveVertices& of, Network* net)
       : vertices(of),
@@ -19904,7 +19925,8 @@ struct Grouping {
         component(context),
         parent(context),
         reversed(context),
-        holder(context) {}
+        holder(context),
+        ambiguous(context) {}
   uint32_t root(uint32_t p) {
     while (parent[p] != p) p = parent[p] = parent[parent[p]];
     return p;
@@ -19945,6 +19967,7 @@ static Status take_components(Grouping* g) {
   TRY(g->component.resize(patches));
   TRY(g->parent.resize(patches));
   TRY(g->reversed.assign(patches, 0));
+  TRY(g->ambiguous.assign(patches, 0));
   TRY(g->holder.assign(g->components.members.count(), k_none));
   for (uint32_t p = 0; p < patches; ++p) {
     g->parent[p] = p;
@@ -20137,29 +20160,75 @@ static bool share_component(Grouping* g, Span<const Facing> facing, uint32_t a, 
   return false;
 }
 
+namespace {
+
+/* How far rule 2 has come. */
+struct Pairing {
+  Array<Facing> facing;
+  Array<uint8_t> joined;   /* facing */
+  Array<uint8_t> decided;  /* patch: which side of a ring has the surface */
+
+  explicit Pairing(Context& context) : facing(context), joined(context), decided(context) {}
+};
+
+}  /* namespace */
+
+/* What closing the two loops by themselves would cost, as far as they are not joined yet. */
+static double cost_alone(const Pairing& pairing, const Band& band) {
+  return (pairing.joined[band.a] ? 0.0 : pairing.facing[band.a].alone) +
+         (pairing.joined[band.b] ? 0.0 : pairing.facing[band.b].alone);
+}
+
+static bool loops_may_join(Grouping* g, const Pairing& pairing, const Band& band) {
+  const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
+  const bool wrong_side = (pairing.decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
+                          (pairing.decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
+  if (!(band.area < cost_alone(pairing, band)) || wrong_side) return false;
+  const bool same = g->component[a.patch] == g->component[b.patch];
+  const bool both_alone = !pairing.joined[band.a] && !pairing.joined[band.b];
+  return same ? both_alone : !share_component(g, pairing.facing.span(), a.patch, b.patch);
+}
+
+/* Whether closing the loops alone, or one of the bands that follow, which are larger, was hardly */
+/* worse than the first band and contradicts it. */
+static bool is_ambiguous(Grouping* g, const Pairing& pairing, Span<const Band> bands) {
+  const Band& band = bands[0];
+  if (cost_alone(pairing, band) < k_hardly_more * band.area) return true;
+  const uint32_t own[2] = {pairing.facing[band.a].patch, pairing.facing[band.b].patch};
+  for (size_t i = 1; i < bands.size() && bands[i].area < k_hardly_more * band.area; ++i) {
+    const Facing &a = pairing.facing[bands[i].a], &b = pairing.facing[bands[i].b];
+    for (int k = 0; k < 2; ++k) {
+      const bool reversed = pairing.facing[k == 0 ? band.a : band.b].reversed;
+      /* The same loop by its other side, or where it has one side only, with another loop. */
+      const bool by_a = a.patch == own[k] && (a.reversed != reversed || b.patch != own[1 - k]);
+      const bool by_b = b.patch == own[k] && (b.reversed != reversed || a.patch != own[1 - k]);
+      if ((by_a || by_b) && loops_may_join(g, pairing, bands[i])) return true;
+    }
+  }
+  return false;
+}
+
 static Status join_facing(Grouping* g) {
   Context& context = g->parent.context();
-  Array<Facing> facing(context);
+  Pairing pairing(context);
   Array<Probe> probes(context);
   Array<Band> bands(context);
-  Array<uint8_t> joined(context), decided(context);
-  TRY(decided.assign(g->parent.size(), 0));  /* of rings: which side has the surface */
+  Array<uint8_t>&joined = pairing.joined, &decided = pairing.decided;
+  TRY(decided.assign(g->parent.size(), 0));
   for (uint32_t p = 0; p < decided.size(); ++p) {
     if (g->root(p) != p) decided[p] = decided[g->root(p)] = 1;
   }
-  TRY(list_facing(g, decided.span(), &facing, &probes));
-  TRY(list_bands(*g, facing.span(), probes.span(), &bands));
-  TRY(joined.assign(facing.size(), 0));
-  for (size_t i = 0; i < facing.size(); ++i) joined[i] = decided[facing[i].patch];
-  for (const Band& band : bands) {
-    const Facing &a = facing[band.a], &b = facing[band.b];
-    const double alone = (joined[band.a] ? 0.0 : a.alone) + (joined[band.b] ? 0.0 : b.alone);
-    const bool wrong_side = (decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
-                            (decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
-    if (!(band.area < alone) || wrong_side) continue;
-    const bool same = g->component[a.patch] == g->component[b.patch];
-    const bool both_alone = !joined[band.a] && !joined[band.b];
-    if (same ? !both_alone : share_component(g, facing.span(), a.patch, b.patch)) continue;
+  TRY(list_facing(g, decided.span(), &pairing.facing, &probes));
+  TRY(list_bands(*g, pairing.facing.span(), probes.span(), &bands));
+  TRY(joined.assign(pairing.facing.size(), 0));
+  for (size_t i = 0; i < joined.size(); ++i) joined[i] = decided[pairing.facing[i].patch];
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const Band& band = bands[i];
+    if (!loops_may_join(g, pairing, band)) continue;
+    const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
+    if (is_ambiguous(g, pairing, bands.span().part(i, bands.size() - i))) {
+      g->ambiguous[a.patch] = g->ambiguous[b.patch] = 1;
+    }
     decided[a.patch] = decided[b.patch] = 1;
     g->reversed[a.patch] = a.reversed;
     g->reversed[b.patch] = b.reversed;
@@ -20261,7 +20330,7 @@ static Status list_held(const Grouping& g, Lists* held) {
 }
 
 /* Writes the groups as the network's patches, in the order of the least patch of each. */
-static Status rebuild(Grouping* g) {
+static Status rebuild(Grouping* g, Ambiguity* ambiguity) {
   Network& old = *g->network;
   Context& context = old.segment.context();
   Network fresh(context);
@@ -20280,11 +20349,14 @@ static Status rebuild(Grouping* g) {
   });
   TRY(fresh.patch_start.push(0));
   for (size_t first = 0, end = 0; first < order.size(); first = end) {
+    bool ambiguous = false;
     while (end < order.size() && g->root(order[end]) == g->root(order[first])) {
       const uint32_t p = order[end++];
+      ambiguous = ambiguous || g->ambiguous[p];
       TRY(append_loops(*g, p, &fresh.loop));
       TRY(append_inside(*g, p, held[p], piece.span(), &fresh));
     }
+    if (ambiguous && ambiguity->patches++ == 0) ambiguity->first = fresh.patches();
     TRY(fresh.patch_start.push(fresh.loop.count()));
     TRY(fresh.ring.push(end - first == 1 ? old.ring[order[first]] : uint8_t{0}));
     TRY(fresh.inner.close());
@@ -20296,7 +20368,8 @@ static Status rebuild(Grouping* g) {
   return {};
 }
 
-Status group_patches(const CurveVertices& vertices, Network* network) {
+Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity* ambiguity) {
+  Ambiguity unasked;
   Context& context = network->segment.context();
   Grouping g(context, vertices, network);
   TRY(take_components(&g));
@@ -20305,7 +20378,7 @@ Status group_patches(const CurveVertices& vertices, Network* network) {
   TRY(join_facing(&g));
   TRY(check_rings(&g));
   TRY(check_holders(g));
-  return rebuild(&g);
+  return rebuild(&g, ambiguity != nullptr ? ambiguity : &unasked);
 }
 
 }  /* namespace wireskin::network */
@@ -21441,7 +21514,7 @@ static double expected_points(const Triangulation& t, double spacing) {
 /* A fine border adds a few layers of its own. */
 static Status limit_vertices(double given, double lattice, size_t* most) {
   const double vertices = 4.0 * lattice + 24.0 * given + 1024.0;
-  if (!(lattice + given < k_most_vertices / 2)) {
+  if (!(lattice + given < 0.5 * k_most_vertices)) {
     return fail(Code::too_large, "the spacing is too small for the size of the patch");
   }
   *most = vertices < k_most_vertices ? static_cast<size_t>(vertices) : k_most_vertices;
@@ -23022,7 +23095,8 @@ static Status apply_normal_equations(void* self, Span<const double> x, Span<doub
 Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
                                              Span<const double> rhs, Span<double> solution,
                                              bool* solved) {
-  /* A factorisation costs as much as some sixty solves. */
+  /* A factorisation costs as much as some ten to sixty solves, so what is nearly good is accepted. */
+  constexpr double k_good_enough = 1e-9;
   const sparse::CgOptions options = {1e-10, 40};
   sparse::CgResult result;
   NormalEquations equations(context_, rows, weight);
@@ -23032,7 +23106,7 @@ Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const
   const Status status = sparse::conjugate_gradients(context_, {apply_normal_equations, &equations},
                                                     sparse::inverse_operator(factor_), rhs,
                                                     solution, options, &result);
-  *solved = status.ok() && result.converged;
+  *solved = status.ok() && result.residual <= k_good_enough;
   iterations_ += result.iterations;
   residual_ = result.residual;
   return status.code == Code::not_positive_definite ? Status{} : status;
@@ -24959,6 +25033,8 @@ void report_counts(const Counts& counts, const Scale& unscale, wsk_report* repor
   report->dihedral_mean_deg = counts.dihedral.mean;
   report->dihedral_max_deg = counts.dihedral.greatest;
   report->failed_patches = counts.failed_patches;
+  report->ambiguous_patches = counts.ambiguous_patches;
+  report->first_ambiguous_patch = counts.first_ambiguous_patch;
 }
 
 void report_costs(Context& context, wsk_report* report) {
@@ -25416,6 +25492,7 @@ void wsk_report_init(wsk_report* report, size_t size) {
   defaults.sentence = "";
   defaults.curve = defaults.sample = defaults.node = WSK_NONE;
   defaults.patch = defaults.vertex = defaults.triangle = WSK_NONE;
+  defaults.first_ambiguous_patch = WSK_NONE;
   std::memcpy(report, &defaults, wireskin::api::least(size, sizeof defaults));
 }
 

@@ -294,7 +294,7 @@ static double cost_alone(const Pairing& pairing, const Band& band) {
          (pairing.joined[band.b] ? 0.0 : pairing.facing[band.b].alone);
 }
 
-static bool may_join(Grouping* g, const Pairing& pairing, const Band& band) {
+static bool loops_may_join(Grouping* g, const Pairing& pairing, const Band& band) {
   const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
   const bool wrong_side = (pairing.decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
                           (pairing.decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
@@ -317,7 +317,7 @@ static bool is_ambiguous(Grouping* g, const Pairing& pairing, Span<const Band> b
       // The same loop by its other side, or where it has one side only, with another loop.
       const bool by_a = a.patch == own[k] && (a.reversed != reversed || b.patch != own[1 - k]);
       const bool by_b = b.patch == own[k] && (b.reversed != reversed || a.patch != own[1 - k]);
-      if ((by_a || by_b) && may_join(g, pairing, bands[i])) return true;
+      if ((by_a || by_b) && loops_may_join(g, pairing, bands[i])) return true;
     }
   }
   return false;
@@ -339,7 +339,7 @@ static Status join_facing(Grouping* g) {
   for (size_t i = 0; i < joined.size(); ++i) joined[i] = decided[pairing.facing[i].patch];
   for (size_t i = 0; i < bands.size(); ++i) {
     const Band& band = bands[i];
-    if (!may_join(g, pairing, band)) continue;
+    if (!loops_may_join(g, pairing, band)) continue;
     const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
     if (is_ambiguous(g, pairing, bands.span().part(i, bands.size() - i))) {
       g->ambiguous[a.patch] = g->ambiguous[b.patch] = 1;
