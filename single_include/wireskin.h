@@ -1421,6 +1421,8 @@ class Array {
   const T* data() const { return data_; }
   size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  /* What free() would give back. */
+  size_t capacity_bytes() const { return room_ * sizeof(T); }
   T* begin() { return data_; }
   T* end() { return data_ + size_; }
   const T* begin() const { return data_; }
@@ -9309,7 +9311,11 @@ Status System::analyse() {
     TRY(find_order(matrix_, &order));
     TRY(factor_.analyse(matrix_, order.span()));
   }
-  if (order_ != Order::one && factor_.factor_bytes() > context.room_bytes()) {
+  /* These go before the factor comes, see factor(). */
+  const size_t spare =
+      matrix_.row.capacity_bytes() + place_.capacity_bytes() + patch_.capacity_bytes();
+  const size_t needed = factor_.factor_bytes();
+  if (order_ != Order::one && needed > spare && needed - spare > context.room_bytes()) {
     TRY(prepare_iteration());
   }
   place_.free();

@@ -132,6 +132,8 @@ class Array {
   const T* data() const { return data_; }
   size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  // What free() would give back.
+  size_t capacity_bytes() const { return room_ * sizeof(T); }
   T* begin() { return data_; }
   T* end() { return data_ + size_; }
   const T* begin() const { return data_; }

@@ -93,7 +93,11 @@ Status System::analyse() {
     TRY(find_order(matrix_, &order));
     TRY(factor_.analyse(matrix_, order.span()));
   }
-  if (order_ != Order::one && factor_.factor_bytes() > context.room_bytes()) {
+  // These go before the factor comes, see factor().
+  const size_t spare =
+      matrix_.row.capacity_bytes() + place_.capacity_bytes() + patch_.capacity_bytes();
+  const size_t needed = factor_.factor_bytes();
+  if (order_ != Order::one && needed > spare && needed - spare > context.room_bytes()) {
     TRY(prepare_iteration());
   }
   place_.free();

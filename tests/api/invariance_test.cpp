@@ -29,9 +29,15 @@ TEST_CASE("lengths scaled by a power of two scale the result by it, exactly") {
       for (const int k : {-300, -151, -20, -1, 1, 33, 170, 300}) {
         CAPTURE(k);
         Scene scaled = reference;
-        for (Curve& curve : scaled.curves) scale(curve.positions, k);
+        for (Curve& curve : scaled.curves) {
+          scale(curve.positions, k);
+          curve.soft = std::ldexp(curve.soft, k);
+        }
         scale(scaled.positions, k);
+        for (scenes::SensorCurve& sensor : scaled.sensors) scale(sensor.arc_lengths, k);
         scaled.spacing = std::ldexp(reference.spacing, k);
+        scaled.noise = std::ldexp(reference.noise, k);
+        scaled.soft = std::ldexp(reference.soft, k);
         Call call = watched_scene(scaled);
         REQUIRE(call.status == WSK_OK);
         CHECK(call.report.spacing == std::ldexp(whole.report.spacing, k));
