@@ -40,7 +40,7 @@ INPUT is a network of curves, "-" for the standard input:
   .curves .curve .contour .curf
             polylines of CASSIE, of cycle discovery, of contours in planes, with tangents
   .rawnet   tangents measured along curves, as Stanko's sensors give them: positions are integrated
-  .xyz      points without curves, x y z or x y z nx ny nz
+  .xyz      points, x y z or x y z nx ny nz; alone they span no surface
 What a file is, is seen from its content where the extension cannot be true.
 Curves meet where they share a vertex. A curve is closed if its last vertex repeats its first.
 Boundary curves are those where the surface ends. Normals point to the outer side; where there are

@@ -159,6 +159,19 @@ static void build_from_flow(const std::vector<wsk_curve>& curves, const wsk_opti
   add_times(first, &result->report);
   if (status != WSK_OK) return;
   result->surface.reset(surface);
+  wsk_surface_view view;
+  wsk_surface_get_view(surface, &view, sizeof view);
+  if (view.triangle_count == 0) {
+    // To the library that is an answer; to whoever asked for a surface it is none.
+    bool only_points = true;
+    for (const wsk_curve& curve : curves) only_points = only_points && curve.sample_count < 2;
+    result->surface.reset();
+    result->report.status = WSK_ERROR_OPEN_NETWORK;
+    result->report.sentence = only_points ? "points alone span no surface, curves are needed"
+                                          : "no surface spans between these curves: none of them "
+                                            "closes a loop with others or by itself";
+    return;
+  }
   result->flow = std::make_unique<FlowSummary>();
   FlowSummary& summary = *result->flow;
   wsk_flow_get_view(flow.get(), &summary.view, sizeof summary.view);

@@ -75,10 +75,11 @@ static void write_outputs(const Arguments& arguments, const wsk_surface_view& su
 static void print_flow(const wsk_flow_view& view) {
   const auto number = [](uint32_t n) { return static_cast<unsigned long>(n); };
   std::printf(
-      "from curves alone: Betti numbers %lu %lu %lu, %lu open patches, %lu bare segments%s\n",
+      "from curves alone: Betti numbers %lu %lu %lu, %lu open patches, %lu bare segments%s%s\n",
       number(view.betti[0]), number(view.betti[1]), number(view.betti[2]),
       number(view.open_patch_count), number(view.bare_count),
-      view.manifold != 0 ? "" : ", not a manifold");
+      view.manifold != 0 ? "" : ", not a manifold",
+      view.smoothed != 0 ? "; shaped by the normals" : "");
 }
 
 static void run(const Arguments& arguments) {
@@ -105,6 +106,10 @@ static void run(const Arguments& arguments) {
               static_cast<unsigned long>(surface.vertex_count),
               static_cast<unsigned long>(surface.triangle_count),
               static_cast<unsigned long>(surface.patch_count), seconds.count());
+  if (result.report.failed_patches > 0) {
+    std::printf("left out, as the report says: %lu of these patches\n",
+                static_cast<unsigned long>(result.report.failed_patches));
+  }
   if (result.flow != nullptr) print_flow(result.flow->view);
 }
 

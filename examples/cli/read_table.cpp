@@ -75,7 +75,7 @@ size_t column_named(std::string_view cell) {
       " nx normalx normalsx normals0 xnormal ",
       " ny normaly normalsy normals1 ynormal ",
       " nz normalz normalsz normals2 znormal ",
-      " curve curveid id polyline polylineid stroke strokeid line lineid ",
+      " curve curveid polyline polylineid stroke strokeid line lineid ",
       " boundary isboundary ",
       " sharp issharp crease ",
   };
