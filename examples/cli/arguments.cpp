@@ -267,15 +267,17 @@ bool same_file(const std::string& a, const std::string& b) {
 void check_files(const Arguments& arguments) {
   if (arguments.input.empty()) wrong_usage("no input file");
   if (arguments.outputs.empty()) wrong_usage("no output file, give one with -o");
+  bool holds_curves = false;
   for (const std::string& output : arguments.outputs) {
     const std::string extension = extension_of(output);
     if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
       wrong_usage("unknown output format " + in_quotes(extension) +
                   ", known are .obj, .ply and .stl");
     }
-    if (arguments.curves && extension == ".stl") {
-      wrong_usage("--curves needs .obj or .ply, an STL file holds triangles only");
-    }
+    holds_curves = holds_curves || extension != ".stl";
+  }
+  if (arguments.curves && !holds_curves) {
+    wrong_usage("--curves needs .obj or .ply, an STL file holds triangles only");
   }
   if (!arguments.image.empty() && extension_of(arguments.image) != ".png") {
     wrong_usage("--image writes PNG, the name must end in .png");

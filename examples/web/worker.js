@@ -17,7 +17,7 @@ self.onmessage = async ({ data }) => {
     command.FS.writeFile(name, new Uint8Array(data.bytes));
     const outputs = { obj: "out.obj", ply: "out.ply", stl: "out.stl", html: "out.html" };
     const words = [name, "-o", outputs.obj, "-o", outputs.ply, "-o", outputs.stl,
-      "--html", outputs.html, "--up", data.up, ...data.options];
+      "--html", outputs.html, "--curves", "--up", data.up, ...data.options];
     const status = command.callMain(words);
     if (status !== 0) {
       postMessage({ error: complaints.join("\n") || `The command ended with status ${status}.` });

@@ -140,6 +140,11 @@ async function testApp() {
   execFileSync(command, [join(data, "bumpy.net"), "-o", join(work, "bumpy.obj"), "--quiet"]);
   const numbers = (obj) => obj.split("\n").filter((line) => /^[vf]/.test(line)).join("\n");
   assert.equal(numbers(text), numbers(await readFile(join(work, "bumpy.obj"), "utf8")), "the saved surface");
+  // What was saved is read back by the command: the curves with their normals give the same patches.
+  execFileSync(command, [saved, "-o", join(work, "again.obj"), "--report", join(work, "again.json"), "--quiet"]);
+  const again = JSON.parse(await readFile(join(work, "again.json"), "utf8"));
+  assert.equal(again.patches, 8);
+  assert.equal(again.euler_characteristic, 2);
 
   // A long run is cancelled at once.
   await browser.evaluate("document.getElementById('spacing').value = '0.01'");
