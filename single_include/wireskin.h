@@ -25117,7 +25117,9 @@ Status find_scale(Span<const Vec3> points, int* exponent) {
   if (!finite(extent)) {
     return fail(Code::infinite, "the positions span more than a double can hold");
   }
-  const double greatest = greatest_component(extent);
+  /* Points that are all one place have no extent; how far out they lie serves as well. */
+  double greatest = greatest_component(extent);
+  if (greatest == 0.0) greatest = greatest_component(points[0]);
   *exponent = greatest > 0.0 ? binary_exponent(greatest) : 0;
   return {};
 }
