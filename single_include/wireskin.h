@@ -2571,6 +2571,16 @@ class Layout {
   size_t bytes_ = 0;
 };
 
+/* Fills a caller's view, as much of it as his version has; empty without a handle. */
+template <typename Handle, typename View>
+void fill_view(const Handle* handle, View* view, size_t size) {
+  if (view == nullptr) return;
+  std::memset(view, 0, size);
+  if (size < sizeof view->size) return;
+  if (handle != nullptr) std::memcpy(view, &handle->view, least(size, sizeof *view));
+  view->size = size;
+}
+
 Status read_options(const wsk_options* given, wsk_options* options);
 Allocator allocator_of(const wsk_options& options);
 Callbacks callbacks_of(const wsk_options& options);
@@ -25528,13 +25538,7 @@ wsk_status wsk_smooth_mesh(const wsk_mesh* mesh, const wsk_options* options, wsk
 }
 
 void wsk_surface_get_view(const wsk_surface* surface, wsk_surface_view* view, size_t size) {
-  if (view == nullptr) return;
-  std::memset(view, 0, size);
-  if (size < sizeof view->size) return;
-  if (surface != nullptr) {
-    std::memcpy(view, &surface->view, wireskin::api::least(size, sizeof *view));
-  }
-  view->size = size;
+  wireskin::api::fill_view(surface, view, size);
 }
 
 void wsk_surface_free(wsk_surface* surface) {
@@ -25933,13 +25937,7 @@ wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
 }
 
 void wsk_flow_get_view(const wsk_flow* flow, wsk_flow_view* view, size_t size) {
-  if (view == nullptr) return;
-  std::memset(view, 0, size);
-  if (size < sizeof view->size) return;
-  if (flow != nullptr) {
-    std::memcpy(view, &flow->view, wireskin::api::least(size, sizeof *view));
-  }
-  view->size = size;
+  wireskin::api::fill_view(flow, view, size);
 }
 
 void wsk_flow_free(wsk_flow* flow) {
@@ -26533,13 +26531,7 @@ wsk_status wsk_integrate(const wsk_sensor_curve* curves, size_t curve_count,
 }
 
 void wsk_network_get_view(const wsk_network* network, wsk_network_view* view, size_t size) {
-  if (view == nullptr) return;
-  std::memset(view, 0, size);
-  if (size < sizeof view->size) return;
-  if (network != nullptr) {
-    std::memcpy(view, &network->view, wireskin::api::least(size, sizeof *view));
-  }
-  view->size = size;
+  wireskin::api::fill_view(network, view, size);
 }
 
 void wsk_network_name_places(const wsk_network* network, wsk_report* report) {

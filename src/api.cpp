@@ -586,13 +586,7 @@ wsk_status wsk_smooth_mesh(const wsk_mesh* mesh, const wsk_options* options, wsk
 }
 
 void wsk_surface_get_view(const wsk_surface* surface, wsk_surface_view* view, size_t size) {
-  if (view == nullptr) return;
-  std::memset(view, 0, size);
-  if (size < sizeof view->size) return;
-  if (surface != nullptr) {
-    std::memcpy(view, &surface->view, wireskin::api::least(size, sizeof *view));
-  }
-  view->size = size;
+  wireskin::api::fill_view(surface, view, size);
 }
 
 void wsk_surface_free(wsk_surface* surface) {

@@ -57,6 +57,16 @@ class Layout {
   size_t bytes_ = 0;
 };
 
+// Fills a caller's view, as much of it as his version has; empty without a handle.
+template <typename Handle, typename View>
+void fill_view(const Handle* handle, View* view, size_t size) {
+  if (view == nullptr) return;
+  std::memset(view, 0, size);
+  if (size < sizeof view->size) return;
+  if (handle != nullptr) std::memcpy(view, &handle->view, least(size, sizeof *view));
+  view->size = size;
+}
+
 Status read_options(const wsk_options* given, wsk_options* options);
 Allocator allocator_of(const wsk_options& options);
 Callbacks callbacks_of(const wsk_options& options);

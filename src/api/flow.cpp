@@ -389,13 +389,7 @@ wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
 }
 
 void wsk_flow_get_view(const wsk_flow* flow, wsk_flow_view* view, size_t size) {
-  if (view == nullptr) return;
-  std::memset(view, 0, size);
-  if (size < sizeof view->size) return;
-  if (flow != nullptr) {
-    std::memcpy(view, &flow->view, wireskin::api::least(size, sizeof *view));
-  }
-  view->size = size;
+  wireskin::api::fill_view(flow, view, size);
 }
 
 void wsk_flow_free(wsk_flow* flow) {

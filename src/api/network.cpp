@@ -586,13 +586,7 @@ wsk_status wsk_integrate(const wsk_sensor_curve* curves, size_t curve_count,
 }
 
 void wsk_network_get_view(const wsk_network* network, wsk_network_view* view, size_t size) {
-  if (view == nullptr) return;
-  std::memset(view, 0, size);
-  if (size < sizeof view->size) return;
-  if (network != nullptr) {
-    std::memcpy(view, &network->view, wireskin::api::least(size, sizeof *view));
-  }
-  view->size = size;
+  wireskin::api::fill_view(network, view, size);
 }
 
 void wsk_network_name_places(const wsk_network* network, wsk_report* report) {

@@ -115,6 +115,19 @@ void check_surface(const Result& result, bool manifold = true) {
   }
 }
 
+// The outcome at another unit of length. Only numbers that leave the doubles' range may end
+// otherwise.
+void check_scaled(Call call, int scale, const Call& reference) {
+  if (call.status == WSK_OK && reference.status == WSK_OK) {
+    for (double& x : call.result.positions) x = std::ldexp(x, -scale);
+    for (double& x : call.result.mean_curvature) x = std::ldexp(x, scale);
+    CHECK(hash_of(call.result) == hash_of(reference.result));
+    return;
+  }
+  const bool at_edge = call.status == WSK_ERROR_INFINITE || reference.status == WSK_ERROR_INFINITE;
+  CHECK((call.status == reference.status || at_edge));
+}
+
 }  // namespace
 
 TEST_CASE("hostile networks end in a surface or a status, the same at every scale") {
@@ -143,15 +156,8 @@ TEST_CASE("hostile networks end in a surface or a status, the same at every scal
           if (call.status == WSK_OK) check_surface(call.result);
           if (scale == 0) {
             reference = call;
-          } else if (call.status == WSK_OK && reference.status == WSK_OK) {
-            for (double& x : call.result.positions) x = std::ldexp(x, -scale);
-            for (double& x : call.result.mean_curvature) x = std::ldexp(x, scale);
-            CHECK(hash_of(call.result) == hash_of(reference.result));
           } else {
-            // Only numbers that leave the doubles' range may end differently.
-            const bool at_edge =
-                call.status == WSK_ERROR_INFINITE || reference.status == WSK_ERROR_INFINITE;
-            CHECK((call.status == reference.status || at_edge));
+            check_scaled(call, scale, reference);
           }
         }
       }
@@ -189,14 +195,8 @@ TEST_CASE("hostile curves through wsk_connect and wsk_flow end in a surface or a
           if (call.status == WSK_OK) check_surface(call.result, way != Way::flow);
           if (scale == 0) {
             reference = call;
-          } else if (call.status == WSK_OK && reference.status == WSK_OK) {
-            for (double& x : call.result.positions) x = std::ldexp(x, -scale);
-            for (double& x : call.result.mean_curvature) x = std::ldexp(x, scale);
-            CHECK(hash_of(call.result) == hash_of(reference.result));
           } else {
-            const bool at_edge =
-                call.status == WSK_ERROR_INFINITE || reference.status == WSK_ERROR_INFINITE;
-            CHECK((call.status == reference.status || at_edge));
+            check_scaled(call, scale, reference);
           }
         }
       }
