@@ -49,20 +49,30 @@ Network read_curves(const std::string& file, std::string_view text) {
   return network;
 }
 
-Network read_curve(const std::string& file, std::string_view text) {
+// A file that begins with the number of its parts, each of which begins with a line of its own.
+template <typename ReadPart>
+static Network read_counted(const std::string& file, std::string_view text, const std::string& part,
+                            const ReadPart& read_part) {
   LineScanner scanner(file, text, false);
   Network network;
-  if (!scanner.next()) scanner.fail("the file ends before the number of curves");
-  require_columns(scanner, 1, "the number of curves");
-  const uint32_t curves = scanner.count(0, "the number of curves");
-  for (uint32_t i = 0; i < curves; ++i) {
-    require_next(scanner, i, curves, "curves");
-    require_columns(scanner, 3, "the number of points, a type and a capacity");
-    read_points_of_curve(scanner, scanner.count(0, "the number of points of a curve"), network);
+  const std::string parts = part + "s", number = "the number of " + parts;
+  if (!scanner.next()) scanner.fail("the file ends before " + number);
+  require_columns(scanner, 1, number.c_str());
+  const uint32_t count = scanner.count(0, number.c_str());
+  for (uint32_t i = 0; i < count; ++i) {
+    require_next(scanner, i, count, parts.c_str());
+    read_part(scanner, network);
   }
-  if (scanner.next()) scanner.fail("text after the last curve");
+  if (scanner.next()) scanner.fail("text after the last " + part);
   identify_equal_positions(network);
   return network;
+}
+
+Network read_curve(const std::string& file, std::string_view text) {
+  return read_counted(file, text, "curve", [](LineScanner& scanner, Network& network) {
+    require_columns(scanner, 3, "the number of points, a type and a capacity");
+    read_points_of_curve(scanner, scanner.count(0, "the number of points of a curve"), network);
+  });
 }
 
 // One plane: a line of its equation, which the vertices do not need, and its vertices and edges.
@@ -97,18 +107,7 @@ static void read_plane(LineScanner& scanner, Network& network) {
 }
 
 Network read_contour(const std::string& file, std::string_view text) {
-  LineScanner scanner(file, text, false);
-  Network network;
-  if (!scanner.next()) scanner.fail("the file ends before the number of planes");
-  require_columns(scanner, 1, "the number of planes");
-  const uint32_t planes = scanner.count(0, "the number of planes");
-  for (uint32_t i = 0; i < planes; ++i) {
-    require_next(scanner, i, planes, "planes");
-    read_plane(scanner, network);
-  }
-  if (scanner.next()) scanner.fail("text after the last plane");
-  identify_equal_positions(network);
-  return network;
+  return read_counted(file, text, "plane", read_plane);
 }
 
 // v as in OBJ, e with two indices from 1; the vn lines hold tangents, which are not needed.

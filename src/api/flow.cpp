@@ -45,25 +45,18 @@ namespace wireskin::api {
 
 static constexpr size_t k_flow_options_size = offsetof(wsk_flow_options, raw) + sizeof(int32_t);
 
-static bool not_negative(double x) {
-  return x >= 0.0 && x - x == 0.0;
-}
-
 static Status read_flow_options(const wsk_flow_options* given, wsk_flow_options* options) {
   wsk_flow_options_init(options, sizeof *options);
-  if (given == nullptr) return {};
-  if (given->size < k_flow_options_size) {
-    return fail(Code::bad_argument,
-                "the flow options are not initialised: call wsk_flow_options_init first");
-  }
-  std::memcpy(options, given, least(given->size, sizeof *options));
-  if (!not_negative(options->sampling)) {
+  TRY(read_struct(given, k_flow_options_size,
+                  "the flow options are not initialised: call wsk_flow_options_init first",
+                  options));
+  if (!finite_and_not_negative(options->sampling)) {
     return fail(Code::bad_argument, "the sampling is negative or not finite");
   }
   if (!(options->jitter >= 0.0 && options->jitter <= 1e-3)) {
     return fail(Code::bad_argument, "the jitter is not between 0 and 0.001");
   }
-  if (!not_negative(options->thickness)) {
+  if (!finite_and_not_negative(options->thickness)) {
     return fail(Code::bad_argument, "the thickness is negative or not finite");
   }
   return {};
@@ -327,11 +320,9 @@ void wsk_flow_options_init(wsk_flow_options* options, size_t size) {
   if (options == nullptr || size < wireskin::api::k_flow_options_size) return;
   wsk_flow_options defaults;
   std::memset(&defaults, 0, sizeof defaults);
-  std::memset(options, 0, size);
-  defaults.size = size;
   defaults.voids = WSK_VOIDS_AUTO;
   defaults.thickness = 1.2;
-  std::memcpy(options, &defaults, wireskin::api::least(size, sizeof defaults));
+  wireskin::api::write_defaults(defaults, size, options);
 }
 
 wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk_options* options,

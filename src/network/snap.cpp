@@ -1,7 +1,7 @@
 #include "network/snap.h"
 
 #include "base/sort.h"
-#include "network/bend.h"
+#include "network/beads.h"
 
 namespace wireskin::network {
 
@@ -11,73 +11,40 @@ static constexpr double k_connected = 4.0;
 // cross, and not where they pass each other. A complete network rarely has any crossing left.
 static constexpr double k_crossing = 0.25, k_crossing_in_complete = 0.01;
 
-// A sample, or a place that became one. The beads of a curve are a list, the beads of a point a
-// ring. Beads of samples have the sample's index.
-struct Bead {
-  Vec3 position;
-  double to_next = 0.0;  // along the chords
-  double part = 0.0;     // of the edge after sample `edge`; zero for samples
-  uint32_t edge = k_none;
-  uint32_t previous = k_none, next = k_none;
-  uint32_t ring = k_none;
-  uint32_t given = k_none;  // the point before snapping
-  bool joined = false;      // that had more than one sample
-};
-
-// A place in the list: a bead, or that far behind it.
-struct BeadPlace {
-  uint32_t bead = k_none;
-  double behind = 0.0;
+// A place that may take part in a joint: as it was found, and the end or node that serves instead.
+struct Candidate {
+  WirePlace place;
+  Vec3 at;
+  uint32_t special = k_none;
 };
 
 class Snapper {
  public:
-  Snapper(double tolerance, const Wires& wires)
-      : wires_(wires),
-        tolerance_(tolerance),
-        bead_(wires.position.context()),
-        curve_(wires.position.context()),
-        component_(wires.position.context()),
-        best_(wires.position.context()),
-        stamp_(wires.position.context()),
-        queue_(wires.position.context()),
-        touched_(wires.position.context()),
-        sets_(wires.position.context()) {}
+  Snapper(double tolerance, Beads* beads)
+      : tolerance_(tolerance),
+        beads_(*beads),
+        component_(beads->context()),
+        best_(beads->context()),
+        stamp_(beads->context()),
+        queue_(beads->context()) {}
 
   Status run(SnapResult* result);
-  Status write(Wires* out);
 
  private:
-  Context& context() const { return wires_.position.context(); }
-  Status string_beads(size_t approaches);
-  double edge_length(uint32_t i) const {
-    return length(wires_.position[wires_.next(curve_[i], i)] - wires_.position[i]);
-  }
-  bool is_end(uint32_t b) const {
-    return bead_[b].part == 0.0 && wires_.is_end(curve_[bead_[b].edge], bead_[b].edge);
-  }
-  bool is_free_end(uint32_t b) const { return bead_[b].ring == b && is_end(b); }
-  uint32_t curve_of(uint32_t b) const { return curve_[bead_[b].edge]; }
-
-  BeadPlace locate(const WirePlace& place) const;
-  uint32_t special_near(const BeadPlace& place) const;
-  WirePlace nearest_place(const WirePlace& near, const Vec3& target) const;
-  uint32_t promote(const WirePlace& place, const Vec3& other) const;
+  Context& context() const { return beads_.context(); }
+  const Wires& wires() const { return beads_.wires; }
+  void promote(const Vec3& other, Candidate* candidate) const;
+  void approach(const Candidate& other, Candidate* candidate) const;
   Status relax(uint32_t bead, double distance, double radius);
   Status connected(const BeadPlace& a, const BeadPlace& b, double radius, bool* result);
-  uint32_t make_bead(const WirePlace& place);
-  Origin origin_of(const WirePlace& place) const;
   double detour(uint32_t free_ends, double distance) const;
   Status join(const Approach& approach, SnapResult* result);
+  Status unite(const Candidate& a, const Candidate& b, SnapResult* result);
   Status count_open(Span<const Approach> approaches, uint32_t* open);
-  Vec3 target_of(uint32_t root, Span<uint32_t> seen, uint32_t mark) const;
-  Status bend(Span<Vec3> displacement, Span<uint8_t> pinned);
 
-  const Wires& wires_;
   double tolerance_;
+  Beads& beads_;
   bool complete_ = false;
-  Array<Bead> bead_;
-  Array<uint32_t> curve_;      // of each sample
   Array<uint32_t> component_;  // of each curve, before snapping
   // The search for connections: distances that hold where the stamp is the current one.
   Array<double> best_;
@@ -85,113 +52,19 @@ class Snapper {
   Array<uint32_t> queue_;
   uint32_t now_ = 0;
   uint32_t steps_ = 0;
-  Array<uint8_t> touched_;  // of each bead that names a point: something came to it
-  DisjointSets sets_;
 };
 
-Status Snapper::string_beads(size_t approaches) {
-  const uint32_t n = wires_.samples();
-  const size_t room = n + 2 * approaches;
-  if (room >= k_none) return fail(Code::too_large, "too many near places for 32-bit indices");
-  TRY(bead_.reserve(room));
-  TRY(best_.assign(room, 0.0));
-  TRY(stamp_.assign(room, 0));
-  TRY(touched_.assign(room, 0));
-  TRY(sets_.reset(static_cast<uint32_t>(room)));
-  PointMembers members(context());
-  TRY(list_members(wires_, &members));
-  for (uint32_t i = 0; i < n; ++i) {
-    Bead bead;
-    bead.position = wires_.position[i];
-    bead.edge = i;
-    bead.next = wires_.next(curve_[i], i);
-    bead.previous = wires_.previous(curve_[i], i);
-    if (bead.next != k_none) bead.to_next = edge_length(i);
-    bead.given = wires_.point[i];
-    bead_.push_reserved(bead);
-  }
-  for (uint32_t p = 0; p < wires_.points; ++p) {
-    const Span<const uint32_t> own = members[p];
-    for (size_t k = 0; k < own.size(); ++k) {
-      bead_[own[k]].ring = own[(k + 1) % own.size()];
-      bead_[own[k]].joined = own.size() > 1;
-      sets_.unite(own[0], own[k]);
-      // Samples of one number that the caller gave at different places meet.
-      if (length(wires_.position[own[k]] - wires_.position[own[0]]) > 1e-9) touched_[own[0]] = 1;
-    }
-  }
-  return {};
+// The end or node near the candidate takes part instead of it, if it lies within the tolerance.
+void Snapper::promote(const Vec3& other, Candidate* candidate) const {
+  const uint32_t b = beads_.special_near(beads_.locate(candidate->place), tolerance_);
+  if (b == k_none || !(length(beads_.bead[b].position - other) <= tolerance_)) return;
+  *candidate = {beads_.place_of(b), beads_.bead[b].position, b};
 }
 
-BeadPlace Snapper::locate(const WirePlace& place) const {
-  uint32_t b = place.edge;
-  if (place.part == 0.0) return {b, 0.0};
-  while (bead_[bead_[b].next].part != 0.0 && bead_[bead_[b].next].part <= place.part) {
-    b = bead_[b].next;
-  }
-  return {b, (place.part - bead_[b].part) * edge_length(place.edge)};
-}
-
-// The nearest end or joined bead of the curve, no farther along it than the tolerance.
-uint32_t Snapper::special_near(const BeadPlace& place) const {
-  const auto special = [this](uint32_t b) { return bead_[b].ring != b || is_end(b); };
-  uint32_t found = k_none;
-  double away = place.behind, least = tolerance_;
-  for (uint32_t b = place.bead; b != k_none && away <= least;) {
-    if (special(b)) {
-      found = b;
-      least = away;
-      break;
-    }
-    b = bead_[b].previous;
-    if (b != k_none) away += bead_[b].to_next;
-    if (b == place.bead) break;
-  }
-  away = bead_[place.bead].to_next - place.behind;
-  for (uint32_t b = bead_[place.bead].next; b != k_none && away < least; b = bead_[b].next) {
-    if (special(b)) return b;
-    away += bead_[b].to_next;
-    if (b == place.bead) break;
-  }
-  return found;
-}
-
-// The place nearest to `target` on the same curve, within two tolerances along it.
-WirePlace Snapper::nearest_place(const WirePlace& near, const Vec3& target) const {
-  const uint32_t c = curve_[near.edge];
-  WirePlace best = near;
-  double least = length(point_of_place(wires_, c, near) - target);
-  const auto consider = [&](uint32_t i) {
-    const WirePlace place = nearest_on_edge(wires_, c, i, target);
-    const double distance = length(point_of_place(wires_, c, place) - target);
-    if (distance < least) {
-      least = distance;
-      best = place;
-    }
-  };
-  double away = 0.0;
-  uint32_t steps = 0;
-  for (uint32_t i = near.edge; wires_.next(c, i) != k_none && away <= 2.0 * tolerance_;) {
-    consider(i);
-    if (i != near.edge) away += edge_length(i);
-    i = wires_.next(c, i);
-    if (++steps == wires_.size(c)) return best;
-  }
-  away = 0.0;
-  for (uint32_t i = near.edge; wires_.previous(c, i) != k_none && away <= 2.0 * tolerance_;) {
-    i = wires_.previous(c, i);
-    consider(i);
-    away += edge_length(i);
-    if (++steps >= 2 * wires_.size(c)) return best;
-  }
-  return best;
-}
-
-// The end or node that takes part instead of the place; k_none if there is none.
-uint32_t Snapper::promote(const WirePlace& place, const Vec3& other) const {
-  const uint32_t b = special_near(locate(place));
-  if (b == k_none || !(length(bead_[b].position - other) <= tolerance_)) return k_none;
-  return b;
+// The candidate moves to the place of its curve that is nearest to the other one.
+void Snapper::approach(const Candidate& other, Candidate* candidate) const {
+  candidate->place = beads_.nearest_place(candidate->place, other.at, 2.0 * tolerance_);
+  candidate->at = beads_.point_at(candidate->place);
 }
 
 Status Snapper::relax(uint32_t bead, double distance, double radius) {
@@ -207,53 +80,24 @@ Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius,
   ++now_;
   queue_.clear();
   TRY(relax(a.bead, a.behind, radius));
-  if (a.behind > 0.0) TRY(relax(bead_[a.bead].next, bead_[a.bead].to_next - a.behind, radius));
+  if (a.behind > 0.0)
+    TRY(relax(beads_.bead[a.bead].next, beads_.bead[a.bead].to_next - a.behind, radius));
   for (size_t k = 0; k < queue_.size(); ++k) {
-    const uint32_t u = queue_[k], before = bead_[u].previous;
+    const uint32_t u = queue_[k], before = beads_.bead[u].previous;
     const double distance = best_[u];
-    TRY(relax(bead_[u].next, distance + bead_[u].to_next, radius));
-    if (before != k_none) TRY(relax(before, distance + bead_[before].to_next, radius));
-    TRY(relax(bead_[u].ring, distance, radius));
+    TRY(relax(beads_.bead[u].next, distance + beads_.bead[u].to_next, radius));
+    if (before != k_none) TRY(relax(before, distance + beads_.bead[before].to_next, radius));
+    TRY(relax(beads_.bead[u].ring, distance, radius));
   }
   const auto reached = [&](uint32_t bead, double behind) {
     return bead != k_none && stamp_[bead] == now_ && best_[bead] + behind <= radius;
   };
   *result = reached(b.bead, b.behind);
   if (b.behind > 0.0) {
-    *result = *result || reached(bead_[b.bead].next, bead_[b.bead].to_next - b.behind);
+    *result = *result || reached(beads_.bead[b.bead].next, beads_.bead[b.bead].to_next - b.behind);
   }
   *result = *result || (a.bead == b.bead && std::fabs(a.behind - b.behind) <= radius);
   return {};
-}
-
-// The bead at a place; a new one between beads.
-uint32_t Snapper::make_bead(const WirePlace& place) {
-  const BeadPlace at = locate(place);
-  constexpr double k_same = 1e-3;  // of the edge: nearer than this a sample serves
-  const Bead& before = bead_[at.bead];
-  if (at.behind <= k_same * before.to_next) return at.bead;
-  if (before.to_next - at.behind <= k_same * before.to_next) return before.next;
-  Bead bead;
-  bead.position = point_of_place(wires_, curve_[place.edge], place);
-  bead.part = place.part;
-  bead.edge = place.edge;
-  bead.previous = at.bead;
-  bead.next = before.next;
-  bead.to_next = before.to_next - at.behind;
-  const uint32_t index = static_cast<uint32_t>(bead_.size());
-  bead.ring = index;
-  bead.given = wires_.points + (index - wires_.samples());
-  bead_[at.bead].next = index;
-  bead_[at.bead].to_next = at.behind;
-  bead_[bead.next].previous = index;
-  bead_.push_reserved(bead);
-  return index;
-}
-
-Origin Snapper::origin_of(const WirePlace& place) const {
-  if (place.part == 0.0) return wires_.origin[place.edge];
-  const EdgeOrigin& along = wires_.along[place.edge];
-  return {along.curve, along.sample, along.backwards ? 1.0 - place.part : place.part};
 }
 
 // How long a way through the network counts as a connection. A loose end is there to be joined:
@@ -264,57 +108,43 @@ double Snapper::detour(uint32_t free_ends, double distance) const {
   return factor * distance > least * tolerance_ ? factor * distance : least * tolerance_;
 }
 
-Status Snapper::join(const Approach& approach, SnapResult* result) {
-  WirePlace a = approach.a, b = approach.b;
-  const auto at_bead = [this](uint32_t bead) {
-    return WirePlace{bead_[bead].edge, bead_[bead].part};
-  };
-  Vec3 at_a = approach.at_a, at_b = approach.at_b;
-  uint32_t x = promote(a, at_b);
-  if (x != k_none) {
-    a = at_bead(x);
-    at_a = bead_[x].position;
-    b = nearest_place(b, at_a);
-    at_b = point_of_place(wires_, curve_[b.edge], b);
+Status Snapper::unite(const Candidate& a, const Candidate& b, SnapResult* result) {
+  const uint32_t x = beads_.make_bead(a.place);
+  const uint32_t z = beads_.make_bead(b.place);
+  if (beads_.sets.find(x) == beads_.sets.find(z)) return {};
+  Snap snap = {beads_.origin_of(a.place), beads_.origin_of(b.place), a.at, b.at,
+               length(a.at - b.at),       SnapKind::inside_inside};
+  if (beads_.is_end(x) || beads_.is_end(z)) snap.kind = SnapKind::end_inside;
+  if (beads_.is_end(x) && beads_.is_end(z)) snap.kind = SnapKind::end_end;
+  TRY(result->snaps.push(snap));
+  beads_.unite(x, z);
+  return {};
+}
+
+Status Snapper::join(const Approach& found, SnapResult* result) {
+  Candidate a = {found.a, found.at_a}, b = {found.b, found.at_b};
+  promote(b.at, &a);
+  if (a.special != k_none) approach(a, &b);
+  promote(a.at, &b);
+  if (b.special != k_none && a.special == k_none) {
+    approach(b, &a);
+    promote(b.at, &a);
   }
-  const uint32_t y = promote(b, at_a);
-  if (y != k_none) {
-    b = at_bead(y);
-    at_b = bead_[y].position;
-    if (x == k_none) {
-      a = nearest_place(a, at_b);
-      at_a = point_of_place(wires_, curve_[a.edge], a);
-      x = promote(a, at_b);
-      if (x != k_none) {
-        a = at_bead(x);
-        at_a = bead_[x].position;
-      }
-    }
-  }
-  const double distance = length(at_a - at_b);
+  const double distance = length(a.at - b.at);
   if (!(distance <= tolerance_)) return {};
-  const uint32_t free_ends = (x != k_none && is_free_end(x)) + (y != k_none && is_free_end(y));
-  if (free_ends == 0 && component_[curve_[a.edge]] == component_[curve_[b.edge]] &&
-      distance > (complete_ ? k_crossing_in_complete : k_crossing) * tolerance_) {
+  const auto is_free = [this](const Candidate& c) {
+    return c.special != k_none && beads_.is_free_end(c.special);
+  };
+  const uint32_t free_ends = is_free(a) + is_free(b);
+  const double crossing = complete_ ? k_crossing_in_complete : k_crossing;
+  if (free_ends == 0 && distance > crossing * tolerance_ &&
+      component_[beads_.curve[a.place.edge]] == component_[beads_.curve[b.place.edge]]) {
     return {};
   }
   bool together = false;
-  TRY(connected(locate(a), locate(b), detour(free_ends, distance), &together));
-  if (together) return {};
-  x = make_bead(a);
-  const uint32_t z = make_bead(b);
-  const uint32_t from = sets_.find(x), to = sets_.find(z);
-  if (from == to) return {};
-  Snap snap = {origin_of(a), origin_of(b), at_a, at_b, distance, SnapKind::inside_inside};
-  if (is_end(x) || is_end(z)) snap.kind = SnapKind::end_inside;
-  if (is_end(x) && is_end(z)) snap.kind = SnapKind::end_end;
-  TRY(result->snaps.push(snap));
-  sets_.unite(x, z);
-  const uint32_t kept = bead_[x].ring;
-  bead_[x].ring = bead_[z].ring;
-  bead_[z].ring = kept;
-  touched_[sets_.find(x)] = 1;
-  return {};
+  TRY(connected(beads_.locate(a.place), beads_.locate(b.place), detour(free_ends, distance),
+                &together));
+  return together ? Status{} : unite(a, b, result);
 }
 
 // Pairs of components that come nearer to each other than the tolerance.
@@ -324,12 +154,13 @@ Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
   };
   DisjointSets joined(context());
   Array<Pair> pairs(context());
-  TRY(joined.reset(wires_.curves()));
-  for (uint32_t b = 0; b < bead_.size(); ++b) joined.unite(curve_of(b), curve_of(bead_[b].ring));
+  TRY(joined.reset(wires().curves()));
+  for (uint32_t b = 0; b < beads_.bead.size(); ++b)
+    joined.unite(beads_.curve_of(b), beads_.curve_of(beads_.bead[b].ring));
   TRY(pairs.reserve(approaches.size()));
   for (const Approach& approach : approaches) {
-    const uint32_t a = joined.find(curve_[approach.a.edge]);
-    const uint32_t b = joined.find(curve_[approach.b.edge]);
+    const uint32_t a = joined.find(beads_.curve[approach.a.edge]);
+    const uint32_t b = joined.find(beads_.curve[approach.b.edge]);
     if (a != b) pairs.push_reserved(a < b ? Pair{a, b} : Pair{b, a});
   }
   const auto less = [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; };
@@ -342,135 +173,26 @@ Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
 Status Snapper::run(SnapResult* result) {
   WireCounts counts;
   Array<Approach> approaches(context());
-  TRY(curve_of_samples(wires_, &curve_));
-  TRY(count_wires(wires_, &component_, &counts));
+  TRY(curve_of_samples(wires(), &beads_.curve));
+  TRY(count_wires(wires(), &component_, &counts));
   complete_ = counts.dangling == 0 && counts.components == 1;
   const double reach = (complete_ ? k_crossing_in_complete : 1.0) * tolerance_;
-  TRY(find_approaches(wires_, curve_.span(), reach, &approaches));
+  TRY(find_approaches(wires(), beads_.curve.span(), reach, &approaches));
   sort(approaches.span(), [](const Approach& p, const Approach& q) {
     if (p.distance != q.distance) return p.distance < q.distance;
     if (p.a.edge != q.a.edge) return p.a.edge < q.a.edge;
     if (p.b.edge != q.b.edge) return p.b.edge < q.b.edge;
     return p.a.part != q.a.part ? p.a.part < q.a.part : p.b.part < q.b.part;
   });
-  TRY(string_beads(approaches.size()));
+  TRY(beads_.string_samples(approaches.size()));
+  TRY(best_.assign(beads_.room(), 0.0));
+  TRY(stamp_.assign(beads_.room(), 0));
   TRY(count_open(approaches.span(), &result->open_before));
   for (size_t k = 0; k < approaches.size(); ++k) {
     TRY(join(approaches[k], result));
     if (k % 64 == 63) TRY(context().checkpoint());
   }
   return count_open(approaches.span(), &result->open_after);
-}
-
-// Where the beads of a point meet: the mean of the places of those of its former points that rank
-// highest, each counted once.
-Vec3 Snapper::target_of(uint32_t root, Span<uint32_t> seen, uint32_t mark) const {
-  const auto rank = [this](uint32_t b) { return bead_[b].joined ? 2 : is_end(b) ? 0 : 1; };
-  int highest = 0;
-  uint32_t b = root;
-  do {
-    highest = rank(b) > highest ? rank(b) : highest;
-    b = bead_[b].ring;
-  } while (b != root);
-  Vec3 sum, first;
-  uint32_t count = 0;
-  do {
-    if (rank(b) == highest && seen[bead_[b].given] != mark) {
-      seen[bead_[b].given] = mark;
-      if (count == 0) first = bead_[b].position;
-      sum += bead_[b].position;
-      ++count;
-    }
-    b = bead_[b].ring;
-  } while (b != root);
-  return count == 1 ? first : (1.0 / count) * sum;
-}
-
-Status Snapper::bend(Span<Vec3> displacement, Span<uint8_t> pinned) {
-  Array<double> arc(context());
-  Array<uint32_t> order(context());
-  Array<uint8_t> pins(context());
-  Array<Vec3> shift(context());
-  TRY(arc.reserve(bead_.size()));
-  TRY(order.reserve(bead_.size()));
-  TRY(pins.reserve(bead_.size()));
-  TRY(shift.reserve(bead_.size()));
-  for (uint32_t c = 0; c < wires_.curves(); ++c) {
-    arc.clear(), order.clear(), pins.clear(), shift.clear();
-    double length = 0.0;
-    bool moves = false;
-    for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
-      if (b == wires_.start[c] && !order.empty()) break;
-      order.push_reserved(b);
-      arc.push_reserved(length);
-      pins.push_reserved(pinned[b]);
-      shift.push_reserved(displacement[b]);
-      moves = moves || displacement[b] != Vec3{};
-      length += bead_[b].to_next;
-    }
-    if (!moves) continue;
-    bend_curve({arc.span(), length, wires_.closed[c] != 0, pins.span(), shift.span()});
-    for (size_t k = 0; k < order.size(); ++k) displacement[order[k]] = shift[k];
-  }
-  return {};
-}
-
-static Vec3 normal_between(const Vec3& a, const Vec3& b, double part) {
-  const double sum = dot(a, a) * dot(b, b);
-  return sum > 0.0 ? unit((1.0 - part) * a + part * b) : Vec3{};
-}
-
-// All points that were united come to their place; samples between them follow.
-Status Snapper::write(Wires* out) {
-  Array<Vec3> displacement(context()), target(context());
-  Array<uint8_t> pinned(context());
-  Array<uint32_t> seen(context()), name(context());
-  const uint32_t n = static_cast<uint32_t>(bead_.size());
-  TRY(displacement.assign(n, Vec3{}));
-  TRY(target.resize(n));
-  TRY(pinned.assign(n, 0));
-  TRY(name.assign(n, k_none));
-  TRY(seen.assign(wires_.points + size_t{n}, k_none));
-  for (uint32_t b = 0; b < n; ++b) {
-    const uint32_t root = sets_.find(b);
-    target[b] = bead_[b].position;
-    pinned[b] = bead_[b].ring != b;
-    if (!touched_[root]) continue;
-    target[b] = root == b ? target_of(root, seen.span(), root) : target[root];
-    displacement[b] = target[b] - bead_[b].position;
-  }
-  TRY(bend(displacement.span(), pinned.span()));
-  TRY(reserve_wires(wires_.curves(), n, !wires_.right.empty(), out));
-  out->start.push_reserved(0);
-  out->points = 0;
-  for (uint32_t c = 0; c < wires_.curves(); ++c) {
-    for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
-      if (b == wires_.start[c] && out->samples() > out->start[c]) break;
-      const Bead& bead = bead_[b];
-      const uint32_t i = bead.edge, root = sets_.find(b);
-      if (name[root] == k_none) name[root] = out->points++;
-      const bool moved = displacement[b] != Vec3{};
-      out->position.push_reserved(pinned[b] ? target[b]
-                                  : moved   ? bead.position + displacement[b]
-                                            : bead.position);
-      out->point.push_reserved(name[root]);
-      const bool given = bead.part == 0.0;
-      const uint32_t j = given ? i : wires_.next(c, i);
-      out->number.push_reserved(given ? wires_.number[i] : k_none);
-      out->origin.push_reserved(given ? wires_.origin[i] : origin_of({i, bead.part}));
-      const Span<const Vec3> normal = wires_.normal.span(), right = wires_.right.span();
-      out->normal.push_reserved(given ? normal[i]
-                                      : normal_between(normal[i], normal[j], bead.part));
-      if (right.empty()) continue;
-      out->right.push_reserved(given ? right[i] : normal_between(right[i], right[j], bead.part));
-    }
-    out->closed.push_reserved(wires_.closed[c]);
-    out->boundary.push_reserved(wires_.boundary[c]);
-    out->sharp.push_reserved(wires_.sharp[c]);
-    out->soft.push_reserved(wires_.soft[c]);
-    out->start.push_reserved(out->samples());
-  }
-  return {};
 }
 
 Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance) {
@@ -492,9 +214,9 @@ Status snap_wires(double tolerance, Wires* wires, SnapResult* result) {
   Context& context = wires->position.context();
   Wires joined(context);
   {
-    Snapper snapper(tolerance, *wires);
-    TRY(snapper.run(result));
-    TRY(snapper.write(&joined));
+    Beads beads(*wires);
+    TRY(Snapper(tolerance, &beads).run(result));
+    TRY(write_beads(&beads, &joined));
   }
   *wires = static_cast<Wires&&>(joined);
   return {};

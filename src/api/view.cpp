@@ -1,0 +1,110 @@
+#include "api/view.h"
+
+namespace wireskin::api {
+
+// Where the arrays of a surface's view stand in its block.
+struct SurfaceLayout {
+  size_t positions, normals, curvature, gaussian, constraint, vertex_curve, triangle, patch;
+  size_t edges, edge_curve, guarded, sentences, statuses, ways, patch_start, patch_curve, bytes;
+
+  explicit SurfaceLayout(const Surface& surface) {
+    const size_t n = surface.position.size(), triangles = surface.patch.size();
+    const size_t listed = surface.patches.status.size();
+    Layout layout(sizeof(wsk_surface));
+    positions = layout.add_array<double>(3 * n);
+    normals = layout.add_array<double>(3 * n);
+    curvature = layout.add_array<double>(n);
+    gaussian = layout.add_array<double>(n);
+    constraint = layout.add_array<double>(3 * n);
+    vertex_curve = layout.add_array<uint32_t>(n);
+    triangle = layout.add_array<uint32_t>(3 * triangles);
+    patch = layout.add_array<uint32_t>(triangles);
+    edges = layout.add_array<uint32_t>(surface.curve_edge.size());
+    edge_curve = layout.add_array<uint32_t>(surface.curve_edge_curve.size());
+    guarded = layout.add_array<uint8_t>(has_guard(surface) ? surface.patch_guarded.size() : 0);
+    sentences = layout.add_array<const char*>(listed);
+    statuses = layout.add_array<wsk_status>(listed);
+    ways = layout.add_array<uint8_t>(listed);
+    patch_start = layout.add_array<uint32_t>(surface.patches.curve_start.size());
+    patch_curve = layout.add_array<uint32_t>(surface.patches.curve.size());
+    bytes = layout.bytes();
+  }
+
+  static bool has_guard(const Surface& surface) {
+    return !surface.patch_guarded.empty() && !surface.curve_edge.empty();
+  }
+};
+
+static const uint32_t* write_indices(unsigned char* block, size_t offset,
+                                     const Array<uint32_t>& values) {
+  if (values.empty()) return nullptr;
+  std::memcpy(block + offset, values.data(), values.size() * sizeof(uint32_t));
+  return reinterpret_cast<const uint32_t*>(block + offset);
+}
+
+static void write_curvatures(const Surface& surface, const SurfaceLayout& layout,
+                             const Scale& curvatures, unsigned char* block,
+                             wsk_surface_view* view) {
+  const size_t n = surface.position.size();
+  double* h = reinterpret_cast<double*>(block + layout.curvature);
+  for (size_t v = 0; v < n; ++v) h[v] = curvatures(surface.mean_curvature[v]);
+  view->mean_curvature = h;
+  double* k = reinterpret_cast<double*>(block + layout.gaussian);
+  for (size_t v = 0; v < n; ++v) k[v] = curvatures(curvatures(surface.gaussian_curvature[v]));
+  view->gaussian_curvature = k;
+}
+
+// Surfaces of meshes and of flows have patches that no list says more of.
+static void write_patch_list(const Surface& surface, const SurfaceLayout& layout,
+                             unsigned char* block, wsk_surface_view* view) {
+  const size_t listed = surface.patches.status.size();
+  const char** sentence = reinterpret_cast<const char**>(block + layout.sentences);
+  wsk_status* status = reinterpret_cast<wsk_status*>(block + layout.statuses);
+  for (size_t p = 0; p < listed; ++p) {
+    sentence[p] = surface.patches.status[p].sentence;
+    status[p] = static_cast<wsk_status>(surface.patches.status[p].code);
+    block[layout.ways + p] = surface.patches.way[p];
+  }
+  view->patch_sentence = listed > 0 ? sentence : nullptr;
+  view->patch_status = listed > 0 ? status : nullptr;
+  view->patch_way = listed > 0 ? block + layout.ways : nullptr;
+  view->patch_curve_start = write_indices(block, layout.patch_start, surface.patches.curve_start);
+  view->patch_curves = write_indices(block, layout.patch_curve, surface.patches.curve);
+}
+
+Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out) {
+  const SurfaceLayout layout(surface);
+  void* memory = nullptr;
+  TRY(context.allocate(layout.bytes, 1, &memory));
+  unsigned char* block = static_cast<unsigned char*>(memory);
+  const Scale none(0), lengths(exponent), curvatures(-exponent);
+  wsk_surface* handle = static_cast<wsk_surface*>(memory);
+  handle->allocator = context.allocator();
+  handle->bytes = layout.bytes;
+  wsk_surface_view& view = handle->view;
+  view = {};
+  view.size = sizeof view;
+  view.vertex_count = static_cast<uint32_t>(surface.position.size());
+  view.triangle_count = static_cast<uint32_t>(surface.patch.size());
+  view.patch_count = surface.counts.patches;
+  view.curve_edge_count = static_cast<uint32_t>(surface.curve_edge_curve.size());
+  view.positions = write_vectors(block, layout.positions, surface.position.span(), lengths);
+  view.normals = write_vectors(block, layout.normals, surface.normal.span(), none);
+  view.constraint_normals =
+      write_vectors(block, layout.constraint, surface.constraint_normal.span(), none);
+  write_curvatures(surface, layout, curvatures, block, &view);
+  view.vertex_curve = write_indices(block, layout.vertex_curve, surface.vertex_curve);
+  view.triangles = write_indices(block, layout.triangle, surface.triangle);
+  view.triangle_patch = write_indices(block, layout.patch, surface.patch);
+  view.curve_edges = write_indices(block, layout.edges, surface.curve_edge);
+  view.curve_edge_curve = write_indices(block, layout.edge_curve, surface.curve_edge_curve);
+  if (SurfaceLayout::has_guard(surface)) {
+    std::memcpy(block + layout.guarded, surface.patch_guarded.data(), surface.patch_guarded.size());
+    view.patch_guarded = block + layout.guarded;
+  }
+  write_patch_list(surface, layout, block, &view);
+  *out = handle;
+  return context.progress(1.0);
+}
+
+}  // namespace wireskin::api
