@@ -119,8 +119,9 @@ enum {
   /* A curve or a point bounds no patch and lies inside none; a boundary curve has the surface on
      both sides, or nothing tells on which. */
   WSK_ERROR_OPEN_NETWORK = 16,
-  /* Normals turn by more than 120 degrees between neighbouring samples, oppose each other at a
-     node, or leave the order of the curves round a node undecided. */
+  /* Normals turn by more than 120 degrees between neighbouring samples, point to different sides of
+     the surface there or at a node, or leave the order of the curves round a node undecided. If
+     only signs are wrong, wsk_connect_options.orient makes them agree. */
   WSK_ERROR_INCONSISTENT_NORMALS = 17,
   /* The normal of a node is parallel to a curve through it: it cannot be the surface's. */
   WSK_ERROR_TANGENT_NORMAL = 18,
@@ -609,7 +610,8 @@ typedef struct wsk_network_view {
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other
- * curves know. At new joints normals are replaced by their mean.
+ * curves know. At new joints normals are replaced by their mean, unless they contradict each other:
+ * these are left for wsk_build to complain of.
  *
  * In the result every joint has a node number: the least that the caller gave there, or else one
  * that he did not use. What needed nothing comes out as it went in, bit for bit and in the same

@@ -1,5 +1,7 @@
 #include "curves/curve.h"
 
+#include "curves/opposed.h"
+
 namespace wireskin::curves {
 
 // Normals turning by more than this between neighbouring samples (120 degrees) are taken for a
@@ -28,9 +30,19 @@ Status check_samples(const Samples& samples) {
                                 : "the sample repeats the one before it",
                          i);
     }
-    if (dot(samples.normal[i], samples.normal[before]) < k_least_normal_cosine) {
+    const Vec3 &normal = samples.normal[i], &last = samples.normal[before];
+    if (opposed(last, normal, samples.position[i] - samples.position[before])) {
       return fail_sample(Code::inconsistent_normals,
-                         "the normal turns by more than 120 degrees from the sample before", i);
+                         "the normal points to the other side than at the sample before; if only "
+                         "signs are wrong, the option orient makes them agree",
+                         i);
+    }
+    if (dot(normal, last) < k_least_normal_cosine) {
+      return fail_sample(
+          Code::inconsistent_normals,
+          "the normal turns by more than 120 degrees from the sample before: samples are "
+          "too far apart there, or a sign is wrong",
+          i);
     }
   }
   return {};

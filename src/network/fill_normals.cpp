@@ -123,7 +123,7 @@ Status fill_from_nodes(Wires* wires, FillCounts* counts) {
 
 Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
                          Array<Contradiction>* contradictions) {
-  constexpr double k_limit = k_pi / 4.0;
+  constexpr double k_limit = k_pi / 4.0, k_most_united = k_pi / 3.0;
   Context& context = wires->position.context();
   PointMembers members(context);
   Array<uint32_t> curve(context);
@@ -133,9 +133,11 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
     const Span<const uint32_t> own = members[p];
     if (own.size() < 2) continue;
     const Vec3 mean = mean_normal(*wires, curve.span(), own);
+    bool unite = joined[p] && mean != Vec3{};
     for (uint32_t i : own) {
       if (wires->sharp[curve[i]] || !has_normal(*wires, i)) continue;
       const double angle = angle_between(mean, wires->normal[i]);
+      unite = unite && angle <= k_most_united;
       const uint32_t other = i == own[0] ? own[1] : own[0];
       if (angle > k_limit || mean == Vec3{}) {
         TRY(contradictions->push({wires->origin[i], wires->origin[other],
@@ -143,8 +145,8 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
       }
     }
     for (uint32_t i : own) {
-      const bool unite = joined[p] && mean != Vec3{} && has_normal(*wires, i);
-      if (unite && !wires->sharp[curve[i]]) wires->normal[i] = mean;
+      const bool smooth = !wires->sharp[curve[i]] && has_normal(*wires, i);
+      if (unite && smooth) wires->normal[i] = mean;
     }
   }
   return {};

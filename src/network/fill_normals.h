@@ -22,8 +22,9 @@ Status fill_along(Wires* wires, FillCounts* counts);
 // From the points that curves share.
 Status fill_from_nodes(Wires* wires, FillCounts* counts);
 
-// Gives the samples of each point in `joined` (of each point: whether it is new) their mean normal.
-// Lists, at every point, the normals more than 45 degrees from the mean.
+// Gives the samples of each point in `joined` (of each point: whether it is new) their mean normal,
+// unless one of them is more than 60 degrees from it: the mean of normals that contradict each
+// other would hide that. Lists, at every point, the normals more than 45 degrees from the mean.
 Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
                          Array<Contradiction>* contradictions);
 

@@ -1,6 +1,7 @@
 #include "network/nodes.h"
 
 #include "base/sort.h"
+#include "curves/opposed.h"
 
 namespace wireskin::network {
 
@@ -42,6 +43,71 @@ static void merge_sides(const SampleNumbers& samples, Span<const uint32_t> membe
   node->normal = unit(node->certain ? sharp : sharp + smooth);
 }
 
+// The directions in which a sample's curve leaves it, up to two of them.
+struct Rays {
+  Vec3 direction[2];
+  int count = 0;
+};
+
+static Rays rays_of(const SampleNumbers& samples, uint32_t sample) {
+  const uint32_t c = curve_of_sample(samples, sample);
+  const Vec3& here = samples.position[sample];
+  Rays rays;
+  if (sample > samples.start[c]) {
+    rays.direction[rays.count++] = unit(samples.position[sample - 1] - here);
+  }
+  if (sample + 1 < samples.start[c + 1]) {
+    rays.direction[rays.count++] = unit(samples.position[sample + 1] - here);
+  }
+  return rays;
+}
+
+// Whether the normals of two curves at their common node lie on different sides of the surface,
+// seen along every chord from the one curve to the other.
+static bool contradict(const SampleNumbers& samples, uint32_t a, uint32_t b) {
+  constexpr double k_least_turn = 0.5;  // of the chord between unit directions: 29 degrees
+  const Vec3 &n = samples.normal[a], &m = samples.normal[b];
+  if (n == Vec3{} || m == Vec3{} || dot(n, m) > 0.0) return false;
+  const Rays from = rays_of(samples, a), to = rays_of(samples, b);
+  bool found = false;
+  for (int i = 0; i < from.count; ++i) {
+    for (int k = 0; k < to.count; ++k) {
+      const Vec3 chord = to.direction[k] - from.direction[i];
+      if (dot(chord, chord) < k_least_turn * k_least_turn) continue;
+      if (!curves::opposed(n, m, chord)) return false;
+      found = true;
+    }
+  }
+  return found;
+}
+
+// At nodes of many curves each is only compared with the next few.
+static constexpr size_t k_most_compared = 8;
+
+static size_t count_contradictions(const SampleNumbers& samples, Span<const uint32_t> members,
+                                   size_t of) {
+  size_t count = 0;
+  const size_t first = of > k_most_compared ? of - k_most_compared : 0;
+  for (size_t k = first; k < members.size() && k <= of + k_most_compared; ++k) {
+    count += k != of && contradict(samples, members[k], members[of]);
+  }
+  return count;
+}
+
+// The sample whose normal contradicts most of the others at the node, the later one of two; k_none
+// where all agree.
+static uint32_t contradicting_sample(const SampleNumbers& samples, Span<const uint32_t> members) {
+  size_t most = 0;
+  uint32_t worst = k_none;
+  for (size_t k = 0; k < members.size(); ++k) {
+    const size_t count = count_contradictions(samples, members, k);
+    if (count == 0 || count < most) continue;
+    most = count;
+    worst = members[k];
+  }
+  return worst;
+}
+
 // Makes one node of the samples that carry the same number.
 static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, double tolerance,
                     Node* node) {
@@ -58,14 +124,17 @@ static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, 
   node->normal = unit(sum);
   if (!samples.sharp.empty()) merge_sides(samples, members, node);
   if (node->crease) return {};
+  uint32_t worst = contradicting_sample(samples, members);
   for (uint32_t sample : members) {
+    if (worst != k_none) break;
     if (samples.normal[sample] == Vec3{}) continue;  // a point without one
-    if (!(dot(samples.normal[sample], node->normal) > 0.0)) {
-      return fail_at(Code::inconsistent_normals,
-                     "the normal opposes those of the other curves at this node", samples, sample);
-    }
+    if (!(dot(samples.normal[sample], node->normal) > 0.0)) worst = sample;
   }
-  return {};
+  if (worst == k_none) return {};
+  return fail_at(Code::inconsistent_normals,
+                 "the normal opposes those of the other curves at this node; if only signs are "
+                 "wrong, the option orient makes them agree",
+                 samples, worst);
 }
 
 Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
