@@ -12,6 +12,21 @@ static Status fail_sample(Code code, const char* sentence, size_t sample) {
   return fail_at_sample(code, sentence, k_none, static_cast<uint32_t>(sample));
 }
 
+// From the sample before to the one behind, as far as there are any.
+static Vec3 direction_at(const Samples& samples, size_t i) {
+  const size_t n = samples.position.size(), last = n - 1;
+  const size_t before = i > 0 ? i - 1 : samples.closed ? last : 0;
+  const size_t behind = i < last ? i + 1 : samples.closed ? 0 : last;
+  return samples.position[behind] - samples.position[before];
+}
+
+// Whether the normals of two neighbouring samples point to different sides of the surface.
+static bool sides_differ(const Samples& samples, size_t before, size_t i) {
+  const Vec3 &a = samples.normal[before], &b = samples.normal[i];
+  return opposed(a, b, samples.position[i] - samples.position[before]) &&
+         lies_across(a, direction_at(samples, before)) && lies_across(b, direction_at(samples, i));
+}
+
 Status check_samples(const Samples& samples) {
   const size_t n = samples.position.size();
   if (n < (samples.closed ? 3u : 2u)) {
@@ -30,14 +45,13 @@ Status check_samples(const Samples& samples) {
                                 : "the sample repeats the one before it",
                          i);
     }
-    const Vec3 &normal = samples.normal[i], &last = samples.normal[before];
-    if (opposed(last, normal, samples.position[i] - samples.position[before])) {
+    if (sides_differ(samples, before, i)) {
       return fail_sample(Code::inconsistent_normals,
                          "the normal points to the other side than at the sample before; if only "
                          "signs are wrong, the option orient makes them agree",
                          i);
     }
-    if (dot(normal, last) < k_least_normal_cosine) {
+    if (dot(samples.normal[i], samples.normal[before]) < k_least_normal_cosine) {
       return fail_sample(
           Code::inconsistent_normals,
           "the normal turns by more than 120 degrees from the sample before: samples are "

@@ -74,6 +74,8 @@ static bool contradict(const SampleNumbers& samples, uint32_t a, uint32_t b) {
     for (int k = 0; k < to.count; ++k) {
       const Vec3 chord = to.direction[k] - from.direction[i];
       if (dot(chord, chord) < k_least_turn * k_least_turn) continue;
+      if (!curves::lies_across(n, from.direction[i])) continue;
+      if (!curves::lies_across(m, to.direction[k])) continue;
       if (!curves::opposed(n, m, chord)) return false;
       found = true;
     }
