@@ -1,5 +1,6 @@
 #include "arguments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -14,90 +15,6 @@ namespace {
 // In the order of the numbers of wsk_method.
 constexpr const char* k_method_names[WSK_METHOD_COUNT] = {"stanko",  "biharmonic", "triharmonic",
                                                           "clamped", "iterated",   "fair"};
-
-constexpr const char* k_help = R"(wireskin - a smooth surface through a network of curves
-
-usage: wireskin [options] INPUT -o OUTPUT
-
-INPUT is a network of curves, "-" for the standard input:
-  .net      the number of vertices, a row x y z nx ny nz for each, the number of curves, and for
-            each curve a line 0 or 1 (1: boundary) and a line of vertex indices from 0
-  .obj      v, and vn for each v in the same order; l, each of which is one curve with any number
-            of indices; curv, B-splines and Bezier curves of any degree, rational or not. Without
-            any of these f with more than three corners are loops. Curves after a g or o whose name
-            contains "boundary" (in upper or lower case), up to the next g or o, are boundary
-            curves; "sharp" makes them creases, smooth on each side only. A vertex has one vn,
-            creases have two normals: theirs are taken as unknown, and vn holds for the smooth
-            curves that end there.
-  .ply      text or binary: vertices with x y z nx ny nz, the element edge with vertex1, vertex2
-            (and maybe boundary, sharp), or else faces as loops
-  .csv .tsv .txt .dat .asc
-            a row x y z or x y z nx ny nz for each sample, maybe followed by a number of the curve,
-            or columns named in the first line: x y z nx ny nz curve boundary sharp. Columns stand
-            between semicolons, tabs, commas or blanks; with the first two a comma may be the
-            decimal point. Without a column "curve", blank lines or lines "CURVE name" separate
-            curves. Samples whose coordinates are all equal are one point.
-  .curves .curve .contour .curf
-            polylines of CASSIE, of cycle discovery, of contours in planes, with tangents
-  .rawnet   tangents measured along curves, as Stanko's sensors give them: positions are integrated
-  .xyz      points, x y z or x y z nx ny nz; alone they span no surface
-What a file is, is seen from its content where the extension cannot be true.
-Curves meet where they share a vertex. A curve is closed if its last vertex repeats its first.
-Boundary curves are those where the surface ends. Normals point to the outer side; where there are
-none the curves alone give the surface (--topology flow).
-
-OUTPUT is the surface; -o may be repeated:
-  .obj   positions, normals, a group patch_K for each patch
-  .ply   binary: positions, normals, mean curvature, the patch of each triangle
-  .stl   binary: triangles
-
-options:
-  -o OUTPUT          where to write the surface
-  --spacing LENGTH   distance of vertices along the curves, in the units of the input
-                     (default: a hundredth of the diagonal of the bounding box)
-  --method NAME      fair (default): mean curvature as smooth as can be, the normals kept
-                     stanko: mean curvature follows the normals spread from the curves
-                     iterated: the same, repeated on the surface itself
-                     biharmonic, triharmonic: least square Laplacian, which lets the normals
-                     order the curves but not shape the surface
-                     clamped: biharmonic with curvature prescribed on the curves
-  --smooth auto|0|SIGMA
-                     noise of the samples: found and taken out (auto, the default of fair), none,
-                     so that curves are interpolated (0, the default of all other methods), or its
-                     standard deviation in the units of the input
-  --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
-                     smoothed away
-  --snap LENGTH|auto|off
-                     curves that miss each other by no more than LENGTH are joined; auto (default)
-                     takes the median distance of neighbouring samples, at most a hundredth of
-                     the diagonal. What is connected stays as it is; the report lists every joint
-  --orient           the signs of the normals are not to be trusted: make them agree
-  --topology auto|normals|flow
-                     how patches are found: from the order of the normals round each node
-                     (normals), or from the curves alone, as the surface that they cage (flow);
-                     auto takes flow where curves have no normals. With flow, normals shape the
-                     surface where it is a manifold; without them it is left as remeshed
-  --voids N          with flow: the number of voids to enclose (default: those that stand out)
-  --open-walls       with flow: keep walls that end at other walls instead of at curves
-  --partial          leave out patches that cannot be made, instead of failing; the report lists
-                     them
-  --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
-                     written too, with the place of the fault, if the input cannot be read or no
-                     surface can be built from it
-  --image FILE.png   write a shaded picture with isophote stripes and the curves
-  --html FILE.html   write a page that shows the result in any browser: to be turned, lit, measured
-  --curves           write the curves too: as l in .obj, as the element edge in .ply
-  --up x|y|z         the axis that points up in picture and page (default: z)
-  --quiet            no progress, no summary
-  --help             print this
-  --version          print the version
-
-Errors are one line, "FILE:LINE: what is wrong" or "FILE: curve 3, sample 17: what is wrong".
-Curves, samples, nodes and patches are numbered from 0 in messages and reports, lines from 1; a
-node's number is the index of its vertex, from 0. Output files are complete or absent.
-
-exit status: 0 done, 1 the files or the network are at fault, 2 wrong usage
-)";
 
 [[noreturn]] void wrong_usage(const std::string& what) {
   throw Failure("wireskin: " + what + " (see wireskin --help)", 2);
@@ -133,11 +50,27 @@ void read_smoothing(const std::string& text, Arguments* arguments) {
   }
 }
 
-// auto, off, or a length.
+// auto, off, or a length; nothing is nearer than 0.
 double snap_of(const std::string& text) {
+  double length = 0.0;
   if (text == "auto") return 0.0;
-  if (text == "off") return -1.0;
-  return length_of("--snap", text);
+  if (text == "off" || (parse_double(text, &length) && length == 0.0)) return -1.0;
+  if (!parse_double(text, &length) || !(length > 0.0) || !std::isfinite(length)) {
+    wrong_usage("--snap needs a length, auto or off, not " + in_quotes(text));
+  }
+  return length;
+}
+
+// 0 or a length.
+double soft_of(const std::string& text) {
+  double length = 0.0;
+  if (parse_double(text, &length) && length == 0.0) return 0.0;
+  return length_of("--soft", text);
+}
+
+std::string format_of_standard_output(const std::string& name) {
+  if (name == "obj" || name == "ply" || name == "stl") return "." + name;
+  wrong_usage("--format needs obj, ply or stl, not " + in_quotes(name));
 }
 
 int axis_of(const std::string& name) {
@@ -157,7 +90,7 @@ TopologyChoice topology_of(const std::string& name) {
 int voids_of(const std::string& text) {
   int64_t voids = 0;
   if (!parse_integer(text, &voids) || voids < 0 || voids > 1000000) {
-    wrong_usage("--voids needs a number from 0, not " + in_quotes(text));
+    wrong_usage("--voids needs a whole number from 0 to 1000000, not " + in_quotes(text));
   }
   return static_cast<int>(voids);
 }
@@ -180,6 +113,7 @@ class Words {
     return true;
   }
   const std::string& word() const { return word_; }
+  const std::string& name() const { return name_; }
   bool is(const char* name) const { return name_ == name; }
   bool is_flag(const char* name) const {
     if (!is(name)) return false;
@@ -229,8 +163,9 @@ bool take_option(Words& words, Arguments& arguments) {
   } else if (words.is("--smooth")) {
     read_smoothing(words.value(), &arguments);
   } else if (words.is("--soft")) {
-    const std::string text = words.value();
-    arguments.soft = text == "0" ? 0.0 : length_of("--soft", text);
+    arguments.soft = soft_of(words.value());
+  } else if (words.is("--format")) {
+    arguments.output_format = format_of_standard_output(words.value());
   } else if (words.is("--snap")) {
     arguments.snap = snap_of(words.value());
   } else if (words.is_flag("--orient")) {
@@ -254,6 +189,7 @@ bool take_option(Words& words, Arguments& arguments) {
   } else {
     return false;
   }
+  arguments.given.push_back(words.name());
   return true;
 }
 
@@ -264,12 +200,11 @@ bool same_file(const std::string& a, const std::string& b) {
   return fs::path(a).lexically_normal() == fs::path(b).lexically_normal();
 }
 
-void check_files(const Arguments& arguments) {
-  if (arguments.input.empty()) wrong_usage("no input file");
-  if (arguments.outputs.empty()) wrong_usage("no output file, give one with -o");
+// "-" has no extension: its format is given apart.
+void check_formats(const Arguments& arguments) {
   bool holds_curves = false;
   for (const std::string& output : arguments.outputs) {
-    const std::string extension = extension_of(output);
+    const std::string extension = output == "-" ? arguments.output_format : extension_of(output);
     if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
       wrong_usage("unknown output format " + in_quotes(extension) +
                   ", known are .obj, .ply and .stl");
@@ -279,20 +214,46 @@ void check_files(const Arguments& arguments) {
   if (arguments.curves && !holds_curves) {
     wrong_usage("--curves needs .obj or .ply, an STL file holds triangles only");
   }
-  if (!arguments.image.empty() && extension_of(arguments.image) != ".png") {
+  const auto fits = [](const std::string& file, const char* extension) {
+    return file.empty() || file == "-" || extension_of(file) == extension;
+  };
+  if (!fits(arguments.image, ".png")) {
     wrong_usage("--image writes PNG, the name must end in .png");
   }
-  if (!arguments.html.empty() && extension_of(arguments.html) != ".html") {
+  if (!fits(arguments.html, ".html")) {
     wrong_usage("--html writes a page, the name must end in .html");
   }
-  std::vector<std::string> files = {arguments.input, arguments.report, arguments.image,
-                                    arguments.html};
+}
+
+void check_files(const Arguments& arguments) {
+  if (arguments.input.empty()) wrong_usage("no input file");
+  if (arguments.outputs.empty()) wrong_usage("no output file, give one with -o");
+  check_formats(arguments);
+  std::vector<std::string> files = {arguments.report, arguments.image, arguments.html};
   files.insert(files.end(), arguments.outputs.begin(), arguments.outputs.end());
+  if (std::count(files.begin(), files.end(), "-") > 1) {
+    wrong_usage("only one of the results can go to the standard output");
+  }
+  if (arguments.input != "-") files.push_back(arguments.input);
   for (size_t i = 0; i < files.size(); ++i) {
     for (size_t k = i + 1; k < files.size(); ++k) {
       if (files[i].empty() || files[k].empty() || !same_file(files[i], files[k])) continue;
       wrong_usage("two of the files are the same: " + in_quotes(files[k]));
     }
+  }
+}
+
+// What contradicts itself; where the topology is chosen by the file, idle.h says what did nothing.
+void check_topology(const Arguments& arguments) {
+  const bool flow = arguments.topology == TopologyChoice::flow;
+  if (arguments.topology == TopologyChoice::automatic) return;
+  for (const char* option : {"--voids", "--open-walls"}) {
+    if (flow || !has_option(arguments, option)) continue;
+    wrong_usage(std::string(option) + " needs --topology flow");
+  }
+  for (const char* option : {"--soft", "--partial"}) {
+    if (!flow || !has_option(arguments, option)) continue;
+    wrong_usage(std::string(option) + " does nothing with --topology flow");
   }
 }
 
@@ -315,11 +276,18 @@ Arguments parse_arguments(const std::vector<std::string>& list) {
     if (arguments.help || arguments.version) return arguments;
   }
   check_files(arguments);
+  check_topology(arguments);
   return arguments;
 }
 
-const char* help_text() {
-  return k_help;
+bool has_option(const Arguments& arguments, const std::string& name) {
+  return std::count(arguments.given.begin(), arguments.given.end(), name) != 0;
+}
+
+bool writes_standard_output(const Arguments& arguments) {
+  bool any = arguments.report == "-" || arguments.image == "-" || arguments.html == "-";
+  for (const std::string& output : arguments.outputs) any = any || output == "-";
+  return any;
 }
 
 const char* method_name(wsk_method method) {

@@ -14,9 +14,11 @@ namespace wireskin_cli {
 enum class TopologyChoice { automatic, normals, flow };
 
 struct Arguments {
+  std::vector<std::string> given;  // the names of the options, as they came
   std::string input;
-  std::vector<std::string> outputs;  // at least one
-  std::string report;                // "" for none, like image
+  std::vector<std::string> outputs;    // at least one; "-" is the standard output, here and below
+  std::string output_format = ".ply";  // of the standard output
+  std::string report;                  // "" for none, like image
   std::string image;
   std::string html;
   double spacing = 0.0;  // 0: the library's default
@@ -39,6 +41,12 @@ struct Arguments {
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.
 Arguments parse_arguments(const std::vector<std::string>& words);
+
+// Whether the option was given.
+bool has_option(const Arguments& arguments, const std::string& name);
+
+// Whether the standard output carries one of the results.
+bool writes_standard_output(const Arguments& arguments);
 
 const char* help_text();
 const char* method_name(wsk_method method);

@@ -9,6 +9,11 @@
 #include "failure.h"
 #include "scan.h"
 
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#endif
+
 namespace wireskin_cli {
 
 namespace fs = std::filesystem;
@@ -43,6 +48,10 @@ static std::FILE* open_temporary(const std::string& target, std::string* name) {
 }
 
 void OutputFiles::add(const std::string& target, std::string_view bytes) {
+  if (target == "-") {
+    standard_output_.append(bytes);
+    return;
+  }
   std::error_code ignored;
   const fs::file_status status = fs::status(target, ignored);
   if (fs::is_directory(status)) fail_writing(target, EISDIR);
@@ -65,7 +74,18 @@ void OutputFiles::add(const std::string& target, std::string_view bytes) {
   write_and_close(file, bytes, target);
 }
 
+static void write_standard_output(const std::string& bytes) {
+  if (bytes.empty()) return;
+#ifdef _WIN32
+  _setmode(_fileno(stdout), _O_BINARY);
+#endif
+  errno = 0;
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+  if (!written || std::fflush(stdout) != 0) fail_writing("standard output", errno);
+}
+
 void OutputFiles::commit() {
+  write_standard_output(standard_output_);
   for (size_t i = 0; i < pending_.size(); ++i) {
     std::error_code error;
     fs::rename(pending_[i].temporary, pending_[i].target, error);

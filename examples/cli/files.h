@@ -1,8 +1,9 @@
 // Output files that are complete or absent: each is written beside its target under another name,
 // and all are renamed together when every one of them is complete.
 //
-// A target that exists and is no regular file (a terminal, a pipe) is written directly. Whatever
-// fails becomes a Failure "FILE: what is wrong", after which no new file is left.
+// A target that exists and is no regular file (a terminal, a pipe) is written directly, the
+// standard output ("-") at the end. Whatever fails becomes a Failure "FILE: what is wrong", after
+// which no new file is left.
 #pragma once
 
 #include <string>
@@ -33,6 +34,7 @@ class OutputFiles {
     std::string temporary;
   };
   std::vector<Pending> pending_;
+  std::string standard_output_;
 };
 
 }  // namespace wireskin_cli

@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 namespace wireskin_cli {
 
@@ -34,6 +35,34 @@ static std::string short_number(double value) {
   return text;
 }
 
+static bool speaks_of(const wsk_report& report, const char* what) {
+  return std::strstr(report.sentence, what) != nullptr;
+}
+
+std::string option_at_fault(const Arguments& arguments, const wsk_report& report) {
+  if (report.status != WSK_ERROR_BAD_ARGUMENT) return "";
+  if (speaks_of(report, "cutoff length")) return "--soft " + short_number(arguments.soft);
+  if (speaks_of(report, "noise")) return "--smooth " + short_number(arguments.noise);
+  if (speaks_of(report, "snapping tolerance")) return "--snap " + short_number(arguments.snap);
+  return "";
+}
+
+// How many triangles the spacing asks for, if the surface is about as large as its box is wide.
+static std::string spacing_hint(double spacing, double diagonal) {
+  const double triangles = diagonal / spacing * (diagonal / spacing) / 0.433;
+  const std::string count = triangles < HUGE_VAL ? short_number(triangles) : "more than 1e308";
+  return "; --spacing is " + short_number(spacing) + ", the diagonal of the network " +
+         short_number(diagonal) + ": that makes some " + count +
+         " triangles (the default, a hundredth of the diagonal, makes some 20000)";
+}
+
+static std::string orient_hint(const Arguments& arguments, const wsk_report& report) {
+  if (report.status != WSK_ERROR_INCONSISTENT_NORMALS || !speaks_of(report, "orient")) return "";
+  return arguments.orient ? "; --orient was given and did not suffice here: the normals themselves "
+                            "must be put right"
+                          : "; try --orient";
+}
+
 std::string failure_hint(const Arguments& arguments, const Network& network,
                          const BuildResult& result) {
   const wsk_report& report = result.report;
@@ -42,9 +71,11 @@ std::string failure_hint(const Arguments& arguments, const Network& network,
   if (report.status == WSK_ERROR_MISSING_NORMALS && network.normals.empty()) {
     return "; the file gives no normals at all: --topology flow needs none";
   }
-  if (report.status == WSK_ERROR_TOO_LARGE && arguments.spacing > 0.0) {
-    return "; --spacing is " + short_number(arguments.spacing) + ", the diagonal of the network " +
-           short_number(reach.diagonal) + ", and a hundredth of it the default";
+  const bool large =
+      report.status == WSK_ERROR_TOO_LARGE || report.status == WSK_ERROR_OUT_OF_MEMORY;
+  if (large && arguments.spacing > 0.0) return spacing_hint(arguments.spacing, reach.diagonal);
+  if (!option_at_fault(arguments, report).empty()) {
+    return "; the diagonal is " + short_number(reach.diagonal);
   }
   // Far from the origin doubles are coarse; what then goes wrong does not look like it.
   const double rounding = reach.farthest * DBL_EPSILON;
@@ -53,13 +84,12 @@ std::string failure_hint(const Arguments& arguments, const Network& network,
   if (!coarse && report.status == WSK_ERROR_OPEN_NETWORK && loose > 0) {
     return "; " + std::to_string(loose) + (loose == 1 ? " end" : " ends") +
            " of curves meet no other curve: --snap LENGTH joins what misses by less, and the "
-           "report "
-           "lists what was joined";
+           "report lists what was joined";
   }
-  if (!coarse) return "";
+  if (!coarse) return orient_hint(arguments, report);
   return "; the network spans " + short_number(reach.diagonal) + " but lies " +
          short_number(reach.farthest) + " from the origin, where numbers are rounded to about " +
-         short_number(rounding) + ": move it to the origin";
+         short_number(rounding) + (speaks_of(report, "origin") ? "" : ": move it to the origin");
 }
 
 }  // namespace wireskin_cli

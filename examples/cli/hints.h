@@ -8,6 +8,10 @@
 
 namespace wireskin_cli {
 
+// The option whose value the library refused for this network, with the value: "--soft 5"; "" where
+// something else is at fault.
+std::string option_at_fault(const Arguments& arguments, const wsk_report& report);
+
 // "; the file gives no normals ...", or "".
 std::string failure_hint(const Arguments& arguments, const Network& network,
                          const BuildResult& result);

@@ -17,18 +17,26 @@
 #include "read_network.h"
 #include "report_json.h"
 #include "scan.h"
+#include "summary.h"
 #include "write_mesh.h"
 #include "write_page.h"
 
 namespace wireskin_cli {
 
-static std::string report_of(const Arguments& arguments, const BuildResult& result,
-                             size_t line = 0) {
+static std::string report_of(const Arguments& arguments, const Network& network,
+                             const BuildResult& result, size_t line = 0) {
   wsk_surface_view surface;
   wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
   const wsk_network_view prepared = result.prepared_view();
+  std::vector<std::string> idle;
+  if (result.surface != nullptr) {
+    for (const IdleOption& option : idle_options(arguments, network, result)) {
+      idle.push_back(option.name);
+    }
+  }
   return report_json({arguments, result.report, &surface,
-                      result.prepared == nullptr ? nullptr : &prepared, result.flow.get(), line});
+                      result.prepared == nullptr ? nullptr : &prepared, result.flow.get(), line,
+                      idle});
 }
 
 // The report of what failed. What went wrong there is said before what goes wrong here.
@@ -53,16 +61,19 @@ static Network read_input(const Arguments& arguments) {
   }
 }
 
-static void write_outputs(const Arguments& arguments, const wsk_surface_view& surface,
+static void write_outputs(const Arguments& arguments, const Network& network,
                           const BuildResult& result) {
+  wsk_surface_view surface;
+  wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
   OutputFiles files;
   for (const std::string& output : arguments.outputs) {
-    files.add(output, mesh_bytes(surface, output, arguments.curves));
+    const std::string name = output == "-" ? "surface" + arguments.output_format : output;
+    files.add(output, mesh_bytes(surface, name, arguments.curves));
   }
   if (!arguments.image.empty()) {
     files.add(arguments.image, png_bytes(draw_picture(surface, arguments.up_axis)));
   }
-  const std::string json = report_of(arguments, result);
+  const std::string json = report_of(arguments, network, result);
   if (!arguments.report.empty()) files.add(arguments.report, json);
   if (!arguments.html.empty()) {
     const std::string title = std::filesystem::path(arguments.input).filename().string();
@@ -72,14 +83,17 @@ static void write_outputs(const Arguments& arguments, const wsk_surface_view& su
   files.commit();
 }
 
-static void print_flow(const wsk_flow_view& view) {
-  const auto number = [](uint32_t n) { return static_cast<unsigned long>(n); };
-  std::printf(
-      "from curves alone: Betti numbers %lu %lu %lu, %lu open patches, %lu bare segments%s%s\n",
-      number(view.betti[0]), number(view.betti[1]), number(view.betti[2]),
-      number(view.open_patch_count), number(view.bare_count),
-      view.manifold != 0 ? "" : ", not a manifold",
-      view.smoothed != 0 ? "; shaped by the normals" : "");
+// Says what failed; what the library calls an argument is an option here, and no place in the file.
+[[noreturn]] static void fail_building(const Arguments& arguments, const Network& network,
+                                       BuildResult& result) {
+  const std::string option = option_at_fault(arguments, result.report);
+  if (!option.empty()) result.report.curve = WSK_NONE;
+  const std::string subject = arguments.input + (option.empty() ? "" : ": " + option);
+  const std::string line =
+      failure_line(subject, network, result.report) + failure_hint(arguments, network, result);
+  const size_t place = line_of(network, result.report);
+  write_failure_report(arguments, report_of(arguments, network, result, place), line);
+  throw Failure(line, option.empty() ? 1 : 2);
 }
 
 static void run(const Arguments& arguments) {
@@ -87,30 +101,14 @@ static void run(const Arguments& arguments) {
   const Network network = read_input(arguments);
   catch_signals();  // from here on; while a pipe is read, a signal may simply end the command
   ProgressLine progress(!arguments.quiet);
-  const BuildResult result = build_surface(network, arguments, progress.callbacks());
+  BuildResult result = build_surface(network, arguments, progress.callbacks());
   progress.clear();
-  if (result.surface == nullptr) {
-    const std::string line = failure_line(arguments.input, network, result.report) +
-                             failure_hint(arguments, network, result);
-    const size_t place = line_of(network, result.report);
-    write_failure_report(arguments, report_of(arguments, result, place), line);
-    throw Failure(line);
-  }
-  wsk_surface_view surface;
-  wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
-  write_outputs(arguments, surface, result);
+  if (result.surface == nullptr) fail_building(arguments, network, result);
+  write_outputs(arguments, network, result);
   if (arguments.quiet) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  std::printf("%s: %lu vertices, %lu triangles, %lu patches, %.2f s\n",
-              printable(arguments.outputs.front()).c_str(),
-              static_cast<unsigned long>(surface.vertex_count),
-              static_cast<unsigned long>(surface.triangle_count),
-              static_cast<unsigned long>(surface.patch_count), seconds.count());
-  if (result.report.failed_patches > 0) {
-    std::printf("left out, as the report says: %lu of these patches\n",
-                static_cast<unsigned long>(result.report.failed_patches));
-  }
-  if (result.flow != nullptr) print_flow(result.flow->view);
+  std::fputs(summary(arguments, network, result, seconds.count()).c_str(),
+             writes_standard_output(arguments) ? stderr : stdout);
 }
 
 static int run_words(const std::vector<std::string>& words) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "read_network.h"
 #include "scan.h"
@@ -122,21 +123,70 @@ void take_header(const LineScanner& scanner, const std::vector<std::string_view>
   }
 }
 
-// Without a header: x y z, x y z curve, x y z nx ny nz, x y z nx ny nz curve.
-void take_count(const LineScanner& scanner, size_t count, TableLayout& layout) {
+// How a column would do as the number of the curve: a name or a whole number in every row, the same
+// ones again and again.
+class CurveColumn {
+ public:
+  void take(std::string_view cell, char separator) {
+    double value = 0.0;
+    whole_ = whole_ && (!cell_number(cell, separator, &value) || value == std::floor(value));
+    changes_ += rows_ > 0 && cell != last_;
+    names_.insert(std::string(cell));
+    last_ = cell;
+    ++rows_;
+  }
+  bool whole() const { return whole_; }
+  size_t names() const { return names_.size(); }
+  bool repeats() const { return whole_ && names_.size() < rows_; }
+  // The rows of each curve stand together.
+  bool in_runs() const { return repeats() && changes_ + 1 == names_.size(); }
+
+ private:
+  bool whole_ = true;
+  size_t rows_ = 0, changes_ = 0;
+  std::set<std::string> names_;
+  std::string last_;
+};
+
+// Which of `count` columns holds the number of the curve where no header says so: the last, or the
+// first where the last does not look like one.
+size_t curve_column(const LineScanner& at_first_row, std::string_view text, char separator,
+                    size_t count) {
+  CurveColumn first, last;
+  LineScanner scanner(at_first_row.file(), text, false);
+  while (scanner.next('#')) {
+    const std::vector<std::string_view> cells = cells_of(scanner, separator);
+    if (cells.size() < count) continue;  // titles, empty rows, or a fault that is found later
+    first.take(cells[0], separator);
+    last.take(cells[count - 1], separator);
+  }
+  // A last column that is all one number may as well be the z of curves in a plane.
+  const bool flat = last.names() == 1 && first.names() > 1 && first.in_runs();
+  if (last.whole() && !flat) return count - 1;
+  if (first.repeats()) return 0;
+  at_first_row.fail(std::to_string(count) +
+                    " columns without a header, neither the first nor the "
+                    "last of which numbers the curves: a first line with names, as x,y,z,curve, "
+                    "tells what they are");
+}
+
+// Without a header: x y z or x y z nx ny nz, and a number of the curve behind or in front of them.
+void take_count(const LineScanner& scanner, std::string_view text, size_t count,
+                TableLayout& layout) {
   if (count != 3 && count != 4 && count != 6 && count != 7) {
     scanner.fail(std::to_string(count) +
                  " columns where 3 (x y z), 6 (x y z nx ny nz) or one more (a number of the curve) "
                  "are needed; a first line with names can say otherwise");
   }
-  const bool with_normals = count >= 6;
-  for (size_t k = 0; k < (with_normals ? 6u : 3u); ++k) layout.place[k] = k;
-  if (count == 4 || count == 7) layout.place[k_curve] = count - 1;
+  const bool numbered = count == 4 || count == 7;
+  if (numbered) layout.place[k_curve] = curve_column(scanner, text, layout.separator, count);
+  const size_t skipped = numbered && layout.place[k_curve] == 0 ? 1 : 0;
+  for (size_t k = 0; k < (count >= 6 ? 6u : 3u); ++k) layout.place[k] = skipped + k;
   layout.columns = count;
 }
 
 // True if the line was a header.
-bool take_layout(const LineScanner& scanner, TableLayout& layout) {
+bool take_layout(const LineScanner& scanner, std::string_view text, TableLayout& layout) {
   layout.known = true;
   layout.separator = separator_of(trimmed(scanner.text()));
   const std::vector<std::string_view> cells = cells_of(scanner, layout.separator);
@@ -147,19 +197,20 @@ bool take_layout(const LineScanner& scanner, TableLayout& layout) {
   if (header) {
     take_header(scanner, cells, layout);
   } else {
-    take_count(scanner, cells.size(), layout);
+    take_count(scanner, text, cells.size(), layout);
   }
   return header;
 }
 
 class TableReader {
  public:
-  TableReader(const std::string& file, std::string_view text) : scanner_(file, text, false) {}
+  TableReader(const std::string& file, std::string_view text)
+      : text_(text), scanner_(file, text, false) {}
 
   Network read(bool as_points) {
     while (scanner_.next('#')) {
       if (take_title()) continue;
-      if (!layout_.known && take_layout(scanner_, layout_)) continue;
+      if (!layout_.known && take_layout(scanner_, text_, layout_)) continue;
       take_row();
     }
     if (network_.positions.empty()) {
@@ -275,6 +326,7 @@ class TableReader {
     network_.normals.clear();
   }
 
+  std::string_view text_;
   LineScanner scanner_;
   TableLayout layout_;
   Network network_;

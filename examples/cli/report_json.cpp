@@ -243,6 +243,12 @@ std::string patches_json(const wsk_surface_view* surface) {
   return list.empty() ? "[]" : "[" + list + "\n  ]";
 }
 
+std::string strings_json(const std::vector<std::string>& strings) {
+  std::string list;
+  for (const std::string& text : strings) list += (list.empty() ? "" : ", ") + json_string(text);
+  return "[" + list + "]";
+}
+
 // What the command itself knows stands beside the report.
 struct Outcome {
   const char* status;
@@ -257,6 +263,8 @@ std::string outcome_json(const ReportInput& input, const Outcome& outcome) {
   json.text("version", wsk_version_string());
   json.text("input", arguments.input);
   json.text("output", arguments.outputs.empty() ? "" : arguments.outputs.front());
+  json.member("outputs", strings_json(arguments.outputs));
+  json.member("idle_options", strings_json(input.idle_options));
   json.text("method", method_name(arguments.method));
   json.text("status", outcome.status);
   json.text("stage", outcome.stage);
@@ -313,7 +321,7 @@ std::string report_json(const ReportInput& input) {
 std::string read_failure_json(const Arguments& arguments, const ReadFailure& failure) {
   wsk_report report;
   wsk_report_init(&report, sizeof report);
-  return outcome_json({arguments, report, nullptr, nullptr, nullptr, failure.line()},
+  return outcome_json({arguments, report, nullptr, nullptr, nullptr, failure.line(), {}},
                       {failure.status(), "reading", failure.sentence()});
 }
 

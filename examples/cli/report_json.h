@@ -19,6 +19,7 @@ struct ReportInput {
   const wsk_network_view* prepared = nullptr;
   const FlowSummary* flow = nullptr;
   size_t line = 0;  // of the input, that the place of the report speaks of
+  std::vector<std::string> idle_options = {};  // given, but without effect
 };
 
 std::string report_json(const ReportInput& input);

@@ -139,9 +139,21 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::string printable(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+  constexpr const char* k_hex = "0123456789abcdef";
+  std::string result;
+  for (const char c : text) {
+    const unsigned char byte = static_cast<unsigned char>(c);
+    if (c == '\n') {
+      result += "\\n";
+    } else if (c == '\r') {
+      result += "\\r";
+    } else if (c == '\t') {
+      result += "\\t";
+    } else if (byte < 32 || byte == 127) {
+      result += {'\\', 'x', k_hex[byte >> 4], k_hex[byte & 15]};
+    } else {
+      result += c;
+    }
   }
   return result;
 }

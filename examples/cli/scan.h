@@ -39,8 +39,8 @@ void append_double(std::string& text, double value);
 std::string lower_case(std::string_view text);
 std::string in_quotes(std::string_view text);
 
-// As complaints name the file: control characters, line ends among them, become '?', so that a
-// message stays one line.
+// As complaints name the file: control characters, line ends among them, become "\n" or "\x1b", so
+// that a message stays one line.
 std::string printable(std::string_view text);
 
 // Walks over the lines of a text and splits each into columns.

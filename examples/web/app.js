@@ -143,7 +143,7 @@ class App {
       this.viewer.show(sceneFromBase64(page.slice(start, page.indexOf("<\/script>", start))));
       this.finish("");
       byId("save").hidden = false;
-      byId("state").textContent = message.line;
+      byId("state").textContent = message.line.replace(/^out\.[^:]*: /, "");  // not the worker's files
     }
   }
 

@@ -53,9 +53,45 @@ TEST_CASE("snapping and orientation") {
   CHECK(parse_arguments({"in.net", "-o", "out.obj", "--snap", "auto"}).snap == 0.0);
   CHECK(parse_arguments({"in.net", "-o", "out.obj", "--snap=off"}).snap < 0.0);
   CHECK(parse_arguments({"in.net", "-o", "out.obj", "--snap", "0.5"}).snap == 0.5);
+  CHECK(parse_arguments({"in.net", "-o", "out.obj", "--snap", "0"}).snap < 0.0);
+  CHECK(parse_arguments({"in.net", "-o", "out.obj", "--snap", "0.0"}).snap < 0.0);
+  CHECK(complains_of({"in.net", "-o", "out.obj", "--snap", "x"},
+                     "--snap needs a length, auto or off, not \"x\""));
   CHECK(parse_arguments({"in.net", "-o", "out.obj", "--orient"}).orient);
   CHECK(complains_of({"in.net", "-o", "out.obj", "--snap", "-1"}, "--snap"));
   CHECK(complains_of({"in.net", "-o", "out.obj", "--snap", "x"}, "--snap"));
+}
+
+TEST_CASE("what contradicts the topology asked for is refused") {
+  const auto with = [](std::vector<std::string> words) {
+    words.insert(words.end(), {"in.net", "-o", "out.obj"});
+    return words;
+  };
+  CHECK(complains_of(with({"--topology", "normals", "--voids", "2"}),
+                     "--voids needs --topology flow"));
+  CHECK(complains_of(with({"--topology", "normals", "--open-walls"}),
+                     "--open-walls needs --topology flow"));
+  CHECK(complains_of(with({"--topology", "flow", "--partial"}),
+                     "--partial does nothing with --topology flow"));
+  CHECK(complains_of(with({"--topology", "flow", "--soft", "1"}),
+                     "--soft does nothing with --topology flow"));
+  CHECK(parse_arguments(with({"--topology", "flow", "--voids", "2"})).voids == 2);
+  CHECK(parse_arguments(with({"--voids", "2"})).voids == 2);  // the file decides
+  CHECK(parse_arguments(with({"--partial"})).given == std::vector<std::string>{"--partial", "-o"});
+}
+
+TEST_CASE("the standard output") {
+  const Arguments arguments = parse_arguments({"-", "-o", "-", "--format=stl"});
+  CHECK(arguments.input == "-");
+  CHECK(arguments.output_format == ".stl");
+  CHECK(writes_standard_output(arguments));
+  CHECK(parse_arguments({"a.net", "-o", "-"}).output_format == ".ply");
+  CHECK(writes_standard_output(parse_arguments({"a.net", "-o", "a.ply", "--report", "-"})));
+  CHECK_FALSE(writes_standard_output(parse_arguments({"-", "-o", "a.ply"})));
+  CHECK(complains_of({"a.net", "-o", "-", "-o", "-"}, "only one of the results"));
+  CHECK(complains_of({"a.net", "-o", "-", "--report", "-"}, "only one of the results"));
+  CHECK(complains_of({"a.net", "-o", "-", "--format", "dae"}, "--format needs obj, ply or stl"));
+  CHECK(complains_of({"a.net", "-o", "-", "--format", "stl", "--curves"}, "--curves needs"));
 }
 
 TEST_CASE("each method by its name") {

@@ -342,13 +342,15 @@ TEST_CASE("hints: spacing, huge offsets, normals, names") {
   write_file(folder / "sphere.net", sphere_net(4));
   CHECK(run(folder, "sphere.net -o a.obj --spacing 1e-20").err ==
         "sphere.net: the spacing is too small for the network; --spacing is 1e-20, the diagonal of "
-        "the network 3.46, and a hundredth of it the default\n");
+        "the network 3.46: that makes some 2.77e+41 triangles (the default, a hundredth of the "
+        "diagonal, makes some 20000)\n");
   write_file(folder / "far.net",
              "3\n1e14 0 0 0 0 1\n100000000000001 0 0 0 0 1\n1e14 1 0 0 0 1\n1\n0\n0 1 2\n");
   const Run far = run(folder, "far.net -o a.obj");
   CHECK(one_line(far.err));
   CHECK(far.err.find("; the network spans 1.41 but lies 1e+14 from the origin, where numbers are "
-                     "rounded to about 0.0222: move it to the origin\n") != std::string::npos);
+                     "rounded to about 0.0222") != std::string::npos);
+  CHECK(count_of(far.err, "move it to the origin") == 1);
   write_file(folder / "bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\ng a rim\nl 1 2 3 1\n");
   CHECK(run(folder, "bare.obj -o a.obj").status == 0);
   CHECK(run(folder, "bare.obj -o b.obj --topology normals").err ==
@@ -377,6 +379,93 @@ TEST_CASE("the curves go out with the mesh, and come back in") {
   CHECK(run(folder, "sphere.net -o s.stl --curves").status == 2);
 }
 
+TEST_CASE("an option that this network does not allow is named, not a line of the file") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(8));
+  const struct {
+    const char* option;
+    const char* sentence;
+  } cases[] = {
+      {"--soft 5", "the cutoff length of soft constraints is more than a tenth of the diagonal"},
+      {"--snap 5", "the snapping tolerance is more than a tenth of the diagonal"},
+      {"--smooth 5", "the noise stated is too large for the curves"},
+  };
+  for (const auto& c : cases) {
+    CAPTURE(c.option);
+    const Run r = run(folder, std::string("sphere.net -o a.obj --report r.json ") + c.option);
+    CHECK(r.status == 2);
+    CHECK(r.err ==
+          "sphere.net: " + std::string(c.option) + ": " + c.sentence + "; the diagonal is 3.46\n");
+    auto report = JsonReader(read_file(folder / "r.json")).values;
+    CHECK(report["status"] == "bad_argument");
+    CHECK(report["place"] == "null");
+  }
+}
+
+TEST_CASE("signs that contradict each other: the place, and the option that helps") {
+  const ScratchFolder folder("command");
+  std::string cube;
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) cube += (k == 0 ? "v " : " ") + std::to_string((i >> k) & 1);
+    cube += "\n";
+  }
+  for (int i = 0; i < 8; ++i) {  // all to the side of +x
+    const int sign = (i & 1) != 0 ? 1 : -1;
+    for (int k = 0; k < 3; ++k) {
+      cube += (k == 0 ? "vn " : " ") + std::to_string(((i >> k) & 1) != 0 ? sign : -sign);
+    }
+    cube += "\n";
+  }
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (((i >> k) & 1) != 0) continue;
+      cube += "l " + std::to_string(i + 1) + " " + std::to_string((i | (1 << k)) + 1) + "\n";
+    }
+  }
+  write_file(folder / "cube.obj", cube);
+  const Run r = run(folder, "cube.obj -o s.obj --spacing 0.2");
+  CHECK(r.status == 1);
+  CHECK(r.err.find("cube.obj: curve 0, sample 1: the normal points to the other side") == 0);
+  CHECK(r.err.find("; try --orient\n") != std::string::npos);
+  const Run oriented = run(folder, "cube.obj -o s.obj --spacing 0.2 --orient");
+  CHECK(oriented.status == 0);
+  CHECK(oriented.out.find(", 6 patches, ") != std::string::npos);
+}
+
+TEST_CASE("the summary: every output, what was made, what did nothing") {
+  const ScratchFolder folder("command");
+  write_file(folder / "ring.obj",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n"
+             "g boundary\nl 1 2\nl 2 3\nl 3 4\nl 4 1\n");
+  Run r = run(folder, "ring.obj -o a.obj -o b.stl --voids 1 --up x --report r.json");
+  CHECK(r.status == 0);
+  CHECK(r.out.find("a.obj, b.stl: ") == 0);
+  CHECK(r.out.find(" triangles, 1 patch, ") != std::string::npos);
+  CHECK(r.out.find("\n--voids had no effect: normals gave the patches") != std::string::npos);
+  CHECK(r.out.find("\n--up had no effect") != std::string::npos);
+  const std::string report = read_file(folder / "r.json");
+  CHECK(report.find("\"outputs\": [\"a.obj\", \"b.stl\"]") != std::string::npos);
+  CHECK(report.find("\"idle_options\": [\"--voids\", \"--up\"]") != std::string::npos);
+  r = run(folder, "ring.obj -o a.obj --soft 0.1");
+  CHECK(one_line(r.out));
+}
+
+TEST_CASE("a result on the standard output, the summary then on the standard error") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(8));
+  REQUIRE(run(folder, "sphere.net -o s.stl -o s.ply --spacing 0.2 --quiet").status == 0);
+  const Run ply = run(folder, "- -o - --spacing 0.2 < sphere.net");
+  CHECK(ply.status == 0);
+  CHECK(ply.out == read_file(folder / "s.ply"));
+  CHECK(ply.err.find("standard output: ") == 0);
+  const Run stl = run(folder, "sphere.net -o - --format stl --spacing 0.2 --quiet");
+  CHECK(stl.out.size() == read_file(folder / "s.stl").size());
+  CHECK(stl.err == "");
+  const Run report = run(folder, "sphere.net -o t.ply --report - --spacing 0.2");
+  CHECK(JsonReader(report.out).values["status"] == "ok");
+  CHECK(folder.file_count() == 4);
+}
+
 TEST_CASE("the standard input") {
   const ScratchFolder folder("command");
   write_file(folder / "sphere.net", sphere_net(8));
@@ -389,7 +478,7 @@ TEST_CASE("a name with control characters does not break the line of the message
   const ScratchFolder folder("command");
   const Run r = run(folder, "\"$(printf 'a\\nb\\033c')\".net -o s.obj");
   CHECK(r.status == 1);
-  CHECK(r.err == "a?b?c.net: there is no such file\n");
+  CHECK(r.err == "a\\nb\\x1bc.net: there is no such file\n");
 }
 
 TEST_CASE("a full disk leaves neither file nor remains, nor harms what was there") {

@@ -62,6 +62,38 @@ TEST_CASE("tabs and a number of the curve without a header; rows of a curve may 
   CHECK(apart.curves[0].vertices == std::vector<uint32_t>{0, 2});
 }
 
+TEST_CASE("a number of the curve in the first column, without a header") {
+  const Network four = read_table("f.csv", "1,0,0,0.5\n1,1,0,0.25\n2,0,1,0.5\n2,1,1,0.125\n");
+  REQUIRE(four.curves.size() == 2);
+  CHECK(four.curves[1].name == "2");
+  CHECK(four.positions[5] == 0.25);
+  CHECK(four.normals.empty());
+  const Network seven = read_table("f.txt",
+                                   "7 0 0 0 0 0 1\n7 1 0 0 0 0 1\n8 0 1 0 0 0 1\n"
+                                   "8 1 1 0 0 0 1\n8 3 1 0 0 0.6 0.8\n");
+  REQUIRE(seven.curves.size() == 2);
+  CHECK(seven.curves[1].vertices.size() == 3);
+  CHECK(seven.normals[3 * 4 + 2] == 0.8);
+  // Curves in a plane: the last column is all one number.
+  const Network flat = read_table("f.csv", "1,0,0,0\n1,1,0,0\n1,2,0,0\n2,0,1,0\n2,0,2,0\n");
+  REQUIRE(flat.curves.size() == 2);
+  CHECK(flat.curves[0].vertices.size() == 3);
+  // Where both would do it is the last, as for names.
+  CHECK(read_table("f.csv", "0,0,0,1\n0,1,0,1\n1,0,0,2\n1,1,0,2\n").positions[4] == 1.0);
+  CHECK(read_table("f.csv", "0,0,0,rim\n0,1,0,rim\n").curves[0].name == "rim");
+  const Network german = read_table("f.csv", "1;0,5;0;0\n1;1,5;0;0,5\n2;0;1;2,5\n2;1;1;0\n");
+  REQUIRE(german.curves.size() == 2);
+  CHECK(german.positions[0] == 0.5);
+}
+
+TEST_CASE("a fourth column that numbers no curves is not taken for one") {
+  CHECK(complaint("0.5,0,0,0.25\n1.5,0,0,0.5\n") ==
+        "f.csv:1: 4 columns without a header, neither the first nor the last of which numbers the "
+        "curves: a first line with names, as x,y,z,curve, tells what they are");
+  // Milliseconds do not repeat.
+  CHECK(complaint("10,0.5,0,0,0,0,0.7\n20,1.5,0,0,0,0,0.6\n").find("f.csv:1: 7 columns") == 0);
+}
+
 TEST_CASE("lines CURVE name") {
   const Network network = read_table("f.txt", corpus_file("table/titles.txt"));
   REQUIRE(network.curves.size() == 2);

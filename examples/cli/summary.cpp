@@ -1,0 +1,77 @@
+#include "summary.h"
+
+#include <cstdio>
+
+#include "scan.h"
+
+namespace wireskin_cli {
+
+// "1 patch", "2 patches".
+static std::string counted(uint32_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+static std::string names_of(const std::vector<std::string>& files) {
+  std::string names;
+  for (const std::string& file : files) {
+    names += (names.empty() ? "" : ", ") + (file == "-" ? "standard output" : printable(file));
+  }
+  return names;
+}
+
+static bool any_normals(const Network& network) {
+  return !network.normals.empty() || !network.raw_curves.empty();
+}
+
+std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& network,
+                                     const BuildResult& result) {
+  std::vector<IdleOption> idle;
+  const auto check = [&](const char* name, bool does_nothing, const char* reason) {
+    if (does_nothing && has_option(arguments, name)) idle.push_back({name, reason});
+  };
+  const bool flow = result.flow != nullptr;
+  const char* by_normals = "normals gave the patches; --topology flow takes the curves alone";
+  const char* by_flow = "the curves alone gave the patches";
+  check("--voids", !flow, by_normals);
+  check("--open-walls", !flow, by_normals);
+  check("--soft", flow && arguments.soft > 0.0, by_flow);
+  check("--partial", flow, by_flow);
+  check("--method", flow && !any_normals(network), "without normals surfaces stay as remeshed");
+  check("--orient", !any_normals(network), "there are no normals");
+  check("--orient", !network.raw_curves.empty(), "measured curves are taken as they are");
+  check("--snap", !network.raw_curves.empty(), "measured curves meet where their nodes say so");
+  check("--up", arguments.image.empty() && arguments.html.empty(), "it is for --image and --html");
+  return idle;
+}
+
+static std::string flow_line(const wsk_flow_view& view) {
+  return "from curves alone: Betti numbers " + std::to_string(view.betti[0]) + " " +
+         std::to_string(view.betti[1]) + " " + std::to_string(view.betti[2]) + ", " +
+         counted(view.open_patch_count, "open patch", "open patches") + ", " +
+         counted(view.bare_count, "bare segment", "bare segments") +
+         (view.manifold != 0 ? "" : ", not a manifold") +
+         (view.smoothed != 0 ? "; shaped by the normals" : "") + "\n";
+}
+
+std::string summary(const Arguments& arguments, const Network& network, const BuildResult& result,
+                    double seconds) {
+  wsk_surface_view surface;
+  wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
+  const uint32_t failed = result.report.failed_patches;
+  char time[32];
+  std::snprintf(time, sizeof time, "%.2f s", seconds);
+  std::string text = names_of(arguments.outputs) + ": " +
+                     counted(surface.vertex_count, "vertex", "vertices") + ", " +
+                     counted(surface.triangle_count, "triangle", "triangles") + ", " +
+                     counted(surface.patch_count - failed, "patch", "patches") + ", " + time + "\n";
+  if (failed > 0) {
+    text += counted(failed, "patch was", "patches were") + " left out, the report says why\n";
+  }
+  if (result.flow != nullptr) text += flow_line(result.flow->view);
+  for (const IdleOption& option : idle_options(arguments, network, result)) {
+    text += option.name + " had no effect: " + option.reason + "\n";
+  }
+  return text;
+}
+
+}  // namespace wireskin_cli
