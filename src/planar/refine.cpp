@@ -147,7 +147,7 @@ static Status try_edge(Refiner* r, uint32_t h, bool* done) {
 
 // The triangle's edges, shortest first.
 static void sort_edges(const Triangulation& t, uint32_t triangle, uint32_t edges[3]) {
-  double squared[3];
+  double squared[3] = {};
   for (uint32_t i = 0; i < 3; ++i) {
     const uint32_t h = 4 * triangle + i;
     const Vec2 along = t.points[t.end(h)] - t.points[t.start(h)];

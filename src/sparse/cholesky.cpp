@@ -341,7 +341,8 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   }
   for (uint32_t k = 0; k < n_; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = workspace_[size_t{k} * lanes + c];
+    const double* from = workspace_.data() + size_t{k} * lanes;
+    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
   }
   return {};
 }

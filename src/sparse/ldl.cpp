@@ -162,7 +162,8 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
   }
   for (uint32_t k = 0; k < n; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = y[size_t{k} * columns + c];
+    const double* from = y + size_t{k} * columns;
+    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
   }
   return {};
 }

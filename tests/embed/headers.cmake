@@ -1,6 +1,7 @@
 # Both headers are C89; the implementation compiles as C++17 without a warning, gives the includer
 # back its macros and says so where the language is older.
 cmake_minimum_required(VERSION 3.25)
+include(${ROOT}/tests/embed/start.cmake)
 include(${ROOT}/tests/embed/find_compilers.cmake)
 set(here ${ROOT}/tests/embed)
 
@@ -11,11 +12,6 @@ function(compiles)
     message(SEND_ERROR "${command}\n${error}")
   endif()
 endfunction()
-
-file(MAKE_DIRECTORY ${WORK})
-execute_process(
-  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${WORK}/wireskin.h -P ${ROOT}/single_include/amalgamate.cmake
-  COMMAND_ERROR_IS_FATAL ANY)
 
 foreach(cxx IN LISTS compilers)
   set(c ${c_of_${cxx}})

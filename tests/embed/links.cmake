@@ -2,37 +2,9 @@
 # that imports nothing; and how large it is for a Cortex-M4. Toolchains that are not here are skipped by
 # name.
 cmake_minimum_required(VERSION 3.25)
+include(${ROOT}/tests/embed/start.cmake)
 set(user ${ROOT}/tests/embed/c89_user.c)
-set(implementation ${ROOT}/tests/embed/implementation.cpp)
-file(REMOVE_RECURSE ${WORK})
-file(MAKE_DIRECTORY ${WORK})
-execute_process(
-  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${WORK}/wireskin.h -P ${ROOT}/single_include/amalgamate.cmake
-  COMMAND_ERROR_IS_FATAL ANY)
 set(library_flags -std=c++17 -O1 -fno-exceptions -fno-rtti -fno-threadsafe-statics -I${WORK})
-
-# Sets `found` where all programs are here, else says what is missing.
-function(look_for name)
-  set(found TRUE PARENT_SCOPE)
-  foreach(program IN LISTS ARGN)
-    set(path path-NOTFOUND)
-    find_program(path ${program} NO_CACHE PATHS /usr/lib/wine)
-    if(NOT path)
-      message(STATUS "${name}: skipped, ${program} is not here")
-      set(found FALSE PARENT_SCOPE)
-      return()
-    endif()
-  endforeach()
-endfunction()
-
-function(must name)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
-  if(result EQUAL 0)
-    message(STATUS "${name}: passed")
-  else()
-    message(SEND_ERROR "${name}: result ${result}\n${text}")
-  endif()
-endfunction()
 
 # C programs on this machine, each by a compiler of its own.
 execute_process(COMMAND g++ ${library_flags} -c ${implementation} -o ${WORK}/library.o

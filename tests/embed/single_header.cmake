@@ -1,9 +1,6 @@
 # The committed single header is the one that src gives.
 cmake_minimum_required(VERSION 3.25)
-file(MAKE_DIRECTORY ${WORK})
-execute_process(
-  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${WORK}/wireskin.h -P ${ROOT}/single_include/amalgamate.cmake
-  COMMAND_ERROR_IS_FATAL ANY)
+include(${ROOT}/tests/embed/start.cmake)
 execute_process(
   COMMAND ${CMAKE_COMMAND} -E compare_files ${WORK}/wireskin.h ${ROOT}/single_include/wireskin.h
   RESULT_VARIABLE different)

@@ -2,15 +2,8 @@
 # cross compiler at hand and runs in an emulator. Says which targets it skipped; those that run must
 # give the bits of golden.h.
 cmake_minimum_required(VERSION 3.25)
-
-file(GLOB scenes ${ROOT}/tests/support/*scenes.cpp)
-set(sources ${ROOT}/tests/golden/golden_print.cpp ${scenes} ${ROOT}/tests/embed/implementation.cpp)
+include(${ROOT}/tests/embed/start.cmake)
 set(common -std=c++17 -O2 -ffp-contract=off -I${ROOT}/tests -I${WORK})
-file(REMOVE_RECURSE ${WORK})
-file(MAKE_DIRECTORY ${WORK})
-execute_process(
-  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${WORK}/wireskin.h -P ${ROOT}/single_include/amalgamate.cmake
-  COMMAND_ERROR_IS_FATAL ANY)
 set(ran 0)
 
 # check_target(NAME compiler "flags" "emulator ..."): the emulator's first word is a program.
@@ -32,7 +25,8 @@ function(check_target name compiler flags emulator)
     endif()
     list(PREPEND emulator ${runner_of_${name}})
   endif()
-  execute_process(COMMAND ${cxx_of_${name}} ${common} ${flags} ${sources} -o ${WORK}/${name}.out
+  execute_process(COMMAND ${cxx_of_${name}} ${common} ${flags} ${golden_sources} ${implementation}
+                          -o ${WORK}/${name}.out
                   RESULT_VARIABLE built ERROR_VARIABLE errors)
   if(NOT built EQUAL 0)
     message(SEND_ERROR "${name}: does not build\n${errors}")

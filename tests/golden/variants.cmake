@@ -2,15 +2,10 @@
 # separate sources and from the single header (which gets no flag that keeps floating point strict:
 # it must do so itself). TIER=quick builds one of the variants, TIER=full four by each compiler.
 cmake_minimum_required(VERSION 3.25)
+include(${ROOT}/tests/embed/start.cmake)
 include(${ROOT}/tests/embed/find_compilers.cmake)
 
-file(GLOB tests ${ROOT}/tests/golden/golden_print.cpp ${ROOT}/tests/support/*scenes.cpp)
 file(GLOB_RECURSE sources ${ROOT}/src/*.cpp)
-file(REMOVE_RECURSE ${WORK})
-file(MAKE_DIRECTORY ${WORK})
-execute_process(
-  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${WORK}/wireskin.h -P ${ROOT}/single_include/amalgamate.cmake
-  COMMAND_ERROR_IS_FATAL ANY)
 
 # Where the processor has fused multiply-add, the compiler is allowed to use it and must not.
 set(fused "")
@@ -25,10 +20,10 @@ function(check_variant cxx form flags)
   get_filename_component(name ${cxx} NAME)
   separate_arguments(flag_list UNIX_COMMAND "${flags}")
   # The scenes are input: their arithmetic must not be contracted either.
-  set(strict ${tests} -I${ROOT}/tests -ffp-contract=off)
+  set(strict ${golden_sources} -I${ROOT}/tests -ffp-contract=off)
   if(form STREQUAL "single")
     execute_process(
-      COMMAND ${cxx} -std=c++17 ${flag_list} -I${WORK} -c ${ROOT}/tests/embed/implementation.cpp
+      COMMAND ${cxx} -std=c++17 ${flag_list} -I${WORK} -c ${implementation}
               -o ${WORK}/implementation.o
       COMMAND_ERROR_IS_FATAL ANY)
     set(library -I${WORK} ${WORK}/implementation.o)

@@ -86,6 +86,30 @@ TEST_CASE("an edge that hangs into the region, on long and on short chains") {
   }
 }
 
+TEST_CASE("points that come back behind the triangle on their edge") {
+  // Spikes, upright and leaning, between feet that rise to the right. Beside each spike stands a
+  // point far below the thin circle of the spike and its feet, on the far side of the edge between
+  // the feet: what gives way to it is not proved by circles.
+  for (const bool mirrored : {false, true}) {
+    for (int round = 0; round < 60; ++round) {
+      const double lean = 0.005 * (round % 40);
+      std::vector<Vec2> chain{{-1000.0, 0.0}};
+      for (int g = 0; g < 10 + round; ++g) {
+        const double x = 100.0 * g, y = 1.0 + 11.0 * g;
+        chain.push_back({x, y});
+        chain.push_back({x + 25.0, y + 0.05});
+        chain.push_back({x + 50.0 - 5000.0 * lean, y + 5000.0});
+      }
+      chain.push_back({2000.0 + 100.0 * round, 0.0});
+      if (mirrored) {
+        std::reverse(chain.begin(), chain.end());
+        for (Vec2& p : chain) p.x = -p.x;
+      }
+      triangulate(chain);
+    }
+  }
+}
+
 TEST_CASE("a chain of many points costs hardly more for each of them") {
   // Along a slanted line the search for each triangle would look at all the points that are left.
   const uint32_t count = 100000;
