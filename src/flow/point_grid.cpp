@@ -1,5 +1,6 @@
 #include "flow/point_grid.h"
 
+#include "base/sort.h"
 #include "num/minmax.h"
 
 namespace wireskin::flow {
@@ -20,6 +21,48 @@ void PointGrid::choose_cells(size_t points, const Vec3& extent) {
   }
 }
 
+uint32_t PointGrid::widest_axis(const Range& range) const {
+  Vec3 low = item_[range.first].at, high = low;
+  for (uint32_t i = range.first; i < range.last; ++i) {
+    const Vec3& p = item_[i].at;
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
+  }
+  const Vec3 extent = high - low;
+  if (extent.x >= extent.y && extent.x >= extent.z) return 0;
+  return extent.y >= extent.z ? 1 : 2;
+}
+
+void PointGrid::put_median_in_the_middle(const Range& range, uint32_t axis) {
+  const auto less = [axis](const Item& a, const Item& b) {
+    const double x = along(a.at, axis), y = along(b.at, axis);
+    return x < y || (x == y && a.index < b.index);
+  };
+  Item *first = item_.begin() + range.first, *last = item_.begin() + range.last;
+  Item* const median = item_.begin() + range.middle();
+  // Where the pivots turn out badly, sorting all keeps the bound.
+  uint32_t budget = 8;
+  for (uint32_t n = range.size(); n > 1; n >>= 1) budget += 2;
+  for (; last - first > 16 && budget > 0; --budget) {
+    Item* const split = partition(first, last, less);
+    (median < split ? last : first) = split;
+  }
+  heap_sort(first, last, less);
+}
+
+void PointGrid::make_tree(const Range& whole) {
+  Range stack[k_most_depth] = {whole};
+  for (uint32_t depth = 1; depth > 0;) {
+    const Range range = stack[--depth];
+    if (range.size() <= k_crowd) continue;
+    const uint32_t axis = widest_axis(range), middle = range.middle();
+    put_median_in_the_middle(range, axis);
+    axis_[middle] = static_cast<uint8_t>(axis);
+    stack[depth++] = {range.first, middle};
+    stack[depth++] = {middle + 1, range.last};
+  }
+}
+
 Status PointGrid::build(Span<const Vec3> points) {
   per_cell_ = 0.0;
   size_ = Cell();
@@ -32,12 +75,16 @@ Status PointGrid::build(Span<const Vec3> points) {
   choose_cells(points.size(), high - low_);
   TRY(start_.assign(size_t{size_.x} * size_.y * size_.z + 1, 0));
   TRY(item_.resize(points.size()));
+  TRY(axis_.resize(points.size()));
   for (const Vec3& p : points) ++start_[index_of(p)];
   starts_from_counts(start_.span());
-  for (uint32_t i = 0; i < points.size(); ++i) item_[start_[index_of(points[i])]++] = i;
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    item_[start_[index_of(points[i])]++] = {points[i], i};
+  }
   // Each start stands at the next one's place now.
   for (size_t c = start_.size() - 1; c > 0; --c) start_[c] = start_[c - 1];
   start_[0] = 0;
+  for (size_t c = 0; c + 1 < start_.size(); ++c) make_tree({start_[c], start_[c + 1]});
   return {};
 }
 

@@ -1,10 +1,12 @@
 #include "network/patch_mesh.h"
 
 #include "base/sort.h"
+#include "mesh/check.h"
 #include "mesh/dome.h"
 #include "mesh/loop_refine.h"
 #include "network/border_check.h"
 #include "network/plane.h"
+#include "num/minmax.h"
 #include "planar/polygon_mesh.h"
 
 namespace wireskin::network {
@@ -315,6 +317,23 @@ static Status mesh_in_space(double spacing, PatchScratch* scratch) {
   return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }
 
+// Points in line within rounding have a triangle in the plane, where they are rounded again, and
+// none in space. The bound is that of every mesh, with room for splits of the chords.
+static Status check_areas(const PatchScratch& scratch, Span<const uint32_t> triangle) {
+  constexpr double k_least_area = 16.0 * mesh::k_least_height;
+  const size_t n = scratch.position.size();
+  const auto at = [&](uint32_t v) { return v < n ? scratch.position[v] : scratch.inner[v - n]; };
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    const Vec3 a = at(triangle[t + 1]) - at(triangle[t]), b = at(triangle[t + 2]) - at(triangle[t]);
+    const Vec3 c = b - a;
+    const double longest2 = larger(dot(a, a), larger(dot(b, b), dot(c, c)));
+    if (!(length(cross(a, b)) > k_least_area * longest2)) {
+      return fail(Code::patch_folded, "the border of the patch encloses nothing");
+    }
+  }
+  return {};
+}
+
 static bool may_be_meshed_otherwise(const Status& status) {
   return status.code == Code::patch_without_plane || status.code == Code::patch_folded;
 }
@@ -328,6 +347,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   scratch->raised = false;
   Status status = fit_plane(border, &plane);
   if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
+  if (status.ok()) status = check_areas(*scratch, scratch->planar.triangles.span());
   if (status.ok()) {
     TRY(builder->mesh->way.push(PatchWay::plane));
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
@@ -335,6 +355,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   if (!may_be_meshed_otherwise(status)) return status;
   TRY(check_border(border));
   TRY(mesh_in_space(spacing, scratch));
+  TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
 }

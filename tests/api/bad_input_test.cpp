@@ -267,6 +267,26 @@ TEST_CASE("a border that crosses itself") {
   CHECK(call.report.patch == 0);
 }
 
+// Within rounding: the plane of the normals, where points are rounded, shows some of them with an
+// area, and space none.
+TEST_CASE("a closed curve that goes out and back along a line") {
+  for (int slope = 0; slope < 60; ++slope) {
+    const double from[3] = {13, -15.8751220703125, -16}, to[3] = {12.875, -16, 9.875 - slope};
+    std::vector<double> positions;
+    for (int i = 0; i <= 6; ++i) {
+      for (size_t k = 0; k < 3; ++k) positions.push_back(from[k] + i / 6.0 * (to[k] - from[k]));
+    }
+    Scene scene = line_through(positions, true);
+    scene.curves[0].boundary = true;
+    for (const double spacing : {0.5, 4.0, 14.5}) {
+      scene.spacing = spacing;
+      const Call call = watched_scene(scene);
+      CHECK(call.status == WSK_ERROR_PATCH_FOLDED);
+      CHECK(call.report.patch == 0);
+    }
+  }
+}
+
 TEST_CASE("a border that runs clockwise") {
   Scene scene = flat_loop({1, 0, 0.7, 0.7, 0, 1, -0.7, 0.7, -1, 0, -0.7, -0.7, 0, -1, 0.7, -0.7});
   scene.curves[0].boundary = false;  // so the outside of the disc ought to be a patch too
