@@ -10,6 +10,15 @@ static constexpr double k_connected = 4.0;
 // Within one component insides are joined only this much nearer than the tolerance: where curves
 // cross, and not where they pass each other. A complete network rarely has any crossing left.
 static constexpr double k_crossing = 0.25, k_crossing_in_complete = 0.01;
+// The gap at a crossing tells how exact the curves are: a node that is farther away than this many
+// gaps, and than this part of the tolerance, is another place.
+static constexpr double k_gaps_to_node = 3.0, k_exact = 0.05;
+// The order in which approaches are joined.
+static constexpr uint8_t k_settled = 0, k_crosses = 1, k_beside = 2;
+// New nodes that are nearer along a curve than this part of the tolerance are one.
+static constexpr double k_one_node = 0.01;
+// Curves whose directions differ by less than this sine run along each other.
+static constexpr double k_along = 0.17;
 
 // A sample, or a place that became one. The beads of a curve are a list, the beads of a point a
 // ring. Beads of samples have the sample's index.
@@ -30,6 +39,12 @@ struct BeadPlace {
   double behind = 0.0;
 };
 
+struct Meeting {
+  WirePlace a, b;
+  Vec3 at_a, at_b;
+  uint32_t free_ends;
+};
+
 class Snapper {
  public:
   Snapper(double tolerance, const Wires& wires)
@@ -42,7 +57,8 @@ class Snapper {
         stamp_(wires.position.context()),
         queue_(wires.position.context()),
         touched_(wires.position.context()),
-        sets_(wires.position.context()) {}
+        sets_(wires.position.context()),
+        parts_(wires.position.context()) {}
 
   Status run(SnapResult* result);
   Status write(Wires* out);
@@ -60,21 +76,35 @@ class Snapper {
   uint32_t curve_of(uint32_t b) const { return curve_[bead_[b].edge]; }
 
   BeadPlace locate(const WirePlace& place) const;
-  uint32_t special_near(const BeadPlace& place) const;
+  double node_reach(double gap) const;
+  Status plan(Span<const Approach> approaches, Array<uint8_t>* pass);
+  uint32_t special_near(const BeadPlace& place, double reach) const;
   WirePlace nearest_place(const WirePlace& near, const Vec3& target) const;
-  uint32_t promote(const WirePlace& place, const Vec3& other) const;
+  bool would_touch(uint32_t bead, const WirePlace& place) const;
+  uint32_t promote(const WirePlace& place, const WirePlace& other, const Vec3& at,
+                   double reach) const;
   Status relax(uint32_t bead, double distance, double radius);
-  Status connected(const BeadPlace& a, const BeadPlace& b, double radius, bool* result);
+  Status connected(const BeadPlace& a, const BeadPlace& b, double radius, bool own, bool* result);
   uint32_t make_bead(const WirePlace& place);
   Origin origin_of(const WirePlace& place) const;
-  double detour(uint32_t free_ends, double distance) const;
-  Status join(const Approach& approach, SnapResult* result);
+  double detour(uint32_t free_ends, double distance, double reach) const;
+  Vec3 direction_at(const WirePlace& place) const;
+  Vec3 normal_at(const WirePlace& place) const;
+  bool ends_on(const Approach& approach) const;
+  bool is_beside(const Approach& approach) const;
+  Meeting meet(const Approach& approach, double reach) const;
+  Status unite(const Meeting& meeting, SnapResult* result);
+  Status join(const Approach& approach, bool beside, SnapResult* result);
   Status count_open(Span<const Approach> approaches, uint32_t* open);
+  void unite_points(uint32_t a, uint32_t b);
+  void unite_close_nodes();
+  void list_beads(uint32_t c, Array<uint32_t>* order, Array<double>* arc);
   Vec3 target_of(uint32_t root, Span<uint32_t> seen, uint32_t mark) const;
   Status bend(Span<Vec3> displacement, Span<uint8_t> pinned);
 
   const Wires& wires_;
   double tolerance_;
+  bool exact_ = false;  // most gaps are next to nothing
   bool complete_ = false;
   Array<Bead> bead_;
   Array<uint32_t> curve_;      // of each sample
@@ -87,6 +117,7 @@ class Snapper {
   uint32_t steps_ = 0;
   Array<uint8_t> touched_;  // of each bead that names a point: something came to it
   DisjointSets sets_;
+  DisjointSets parts_;  // of the components before snapping
 };
 
 Status Snapper::string_beads(size_t approaches) {
@@ -132,13 +163,21 @@ BeadPlace Snapper::locate(const WirePlace& place) const {
   return {b, (place.part - bead_[b].part) * edge_length(place.edge)};
 }
 
-// The nearest end or joined bead of the curve, no farther along it than the tolerance.
-uint32_t Snapper::special_near(const BeadPlace& place) const {
-  const auto special = [this](uint32_t b) { return bead_[b].ring != b || is_end(b); };
+double Snapper::node_reach(double gap) const {
+  const double reach = k_exact * tolerance_ + k_gaps_to_node * gap;
+  return exact_ && reach < tolerance_ ? reach : tolerance_;
+}
+
+// The nearest loose end of the curve, no farther along it than the tolerance, or joined bead within
+// `reach`.
+uint32_t Snapper::special_near(const BeadPlace& place, double reach) const {
+  const auto special = [&](uint32_t b, double away) {
+    return bead_[b].ring != b ? away <= reach : is_end(b);
+  };
   uint32_t found = k_none;
   double away = place.behind, least = tolerance_;
   for (uint32_t b = place.bead; b != k_none && away <= least;) {
-    if (special(b)) {
+    if (special(b, away)) {
       found = b;
       least = away;
       break;
@@ -149,7 +188,7 @@ uint32_t Snapper::special_near(const BeadPlace& place) const {
   }
   away = bead_[place.bead].to_next - place.behind;
   for (uint32_t b = bead_[place.bead].next; b != k_none && away < least; b = bead_[b].next) {
-    if (special(b)) return b;
+    if (special(b, away)) return b;
     away += bead_[b].to_next;
     if (b == place.bead) break;
   }
@@ -187,11 +226,28 @@ WirePlace Snapper::nearest_place(const WirePlace& near, const Vec3& target) cons
   return best;
 }
 
-// The end or node that takes part instead of the place; k_none if there is none.
-uint32_t Snapper::promote(const WirePlace& place, const Vec3& other) const {
-  const uint32_t b = special_near(locate(place));
-  if (b == k_none || !(length(bead_[b].position - other) <= tolerance_)) return k_none;
-  return b;
+// Whether the curve of `place`, coming to the node of bead b, would meet a curve there that runs
+// along it.
+bool Snapper::would_touch(uint32_t b, const WirePlace& place) const {
+  const Vec3 own = unit(direction_at(place));
+  for (uint32_t other = bead_[b].ring; other != b; other = bead_[other].ring) {
+    if (curve_of(other) == curve_[place.edge]) continue;
+    const Vec3 there = unit(direction_at({bead_[other].edge, bead_[other].part}));
+    if (length(cross(own, there)) < k_along) return true;
+  }
+  return false;
+}
+
+// The end or node near `place` that takes part instead of it; k_none if there is none. `other`: the
+// place that comes to it, at the point `at`.
+uint32_t Snapper::promote(const WirePlace& place, const WirePlace& other, const Vec3& at,
+                          double reach) const {
+  const uint32_t b = special_near(locate(place), reach);
+  if (b == k_none) return k_none;
+  const double gap = length(bead_[b].position - at);
+  if (is_free_end(b)) return gap <= tolerance_ ? b : k_none;
+  if (!(gap <= reach)) return k_none;
+  return exact_ && gap > k_one_node * tolerance_ && would_touch(b, other) ? k_none : b;
 }
 
 Status Snapper::relax(uint32_t bead, double distance, double radius) {
@@ -203,7 +259,10 @@ Status Snapper::relax(uint32_t bead, double distance, double radius) {
   return queue_.push(bead);
 }
 
-Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius, bool* result) {
+// Whether the network leads from a to b within `radius`; with `own` on their own curves alone.
+Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius, bool own,
+                          bool* result) {
+  const uint32_t curve_a = curve_of(a.bead), curve_b = curve_of(b.bead);
   ++now_;
   queue_.clear();
   TRY(relax(a.bead, a.behind, radius));
@@ -211,9 +270,10 @@ Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius,
   for (size_t k = 0; k < queue_.size(); ++k) {
     const uint32_t u = queue_[k], before = bead_[u].previous;
     const double distance = best_[u];
+    TRY(relax(bead_[u].ring, distance, radius));
+    if (own && curve_of(u) != curve_a && curve_of(u) != curve_b) continue;
     TRY(relax(bead_[u].next, distance + bead_[u].to_next, radius));
     if (before != k_none) TRY(relax(before, distance + bead_[before].to_next, radius));
-    TRY(relax(bead_[u].ring, distance, radius));
   }
   const auto reached = [&](uint32_t bead, double behind) {
     return bead != k_none && stamp_[bead] == now_ && best_[bead] + behind <= radius;
@@ -258,63 +318,133 @@ Origin Snapper::origin_of(const WirePlace& place) const {
 
 // How long a way through the network counts as a connection. A loose end is there to be joined:
 // only the tip of a curve that has crossed the other one (at 30 degrees or more) already is not.
-double Snapper::detour(uint32_t free_ends, double distance) const {
-  if (free_ends == 0) return k_connected * tolerance_;
+double Snapper::detour(uint32_t free_ends, double distance, double reach) const {
+  if (free_ends == 0) return k_connected * reach;
   const double factor = free_ends == 1 ? 4.0 : 2.0, least = free_ends == 1 ? 1.0 : 0.5;
   return factor * distance > least * tolerance_ ? factor * distance : least * tolerance_;
 }
 
-Status Snapper::join(const Approach& approach, SnapResult* result) {
-  WirePlace a = approach.a, b = approach.b;
-  const auto at_bead = [this](uint32_t bead) {
-    return WirePlace{bead_[bead].edge, bead_[bead].part};
+// Along the curve, of any length.
+Vec3 Snapper::direction_at(const WirePlace& place) const {
+  constexpr double k_step = 1.0 / 16.0;
+  const uint32_t c = curve_[place.edge], before = wires_.previous(c, place.edge);
+  if (wires_.next(c, place.edge) == k_none) {
+    return wires_.position[place.edge] - point_of_place(wires_, c, {before, 1.0 - k_step});
+  }
+  const double step = place.part + k_step < 1.0 ? k_step : -k_step;
+  const Vec3 there = point_of_place(wires_, c, {place.edge, place.part + step});
+  return (1.0 / step) * (there - point_of_place(wires_, c, place));
+}
+
+// Not unit; zero where it is not known.
+Vec3 Snapper::normal_at(const WirePlace& place) const {
+  const uint32_t next = wires_.next(curve_[place.edge], place.edge);
+  const Vec3& own = wires_.normal[place.edge];
+  if (place.part == 0.0 || next == k_none) return own;
+  return (1.0 - place.part) * own + place.part * wires_.normal[next];
+}
+
+// Whether an end of a curve clearly meets the other curve.
+bool Snapper::ends_on(const Approach& approach) const {
+  const double near = k_crossing * tolerance_;
+  const auto near_end = [&](const WirePlace& place, const Vec3& at) {
+    const uint32_t c = curve_[place.edge];
+    if (wires_.closed[c]) return false;
+    const Vec3 &first = wires_.position[wires_.start[c]],
+               &last = wires_.position[wires_.start[c + 1] - 1];
+    return length(first - at) <= near || length(last - at) <= near;
   };
-  Vec3 at_a = approach.at_a, at_b = approach.at_b;
-  uint32_t x = promote(a, at_b);
+  return approach.distance <= near &&
+         (near_end(approach.a, approach.at_a) || near_end(approach.b, approach.at_b));
+}
+
+// Whether the curves pass each other side by side there instead of crossing: they run along each
+// other, or the gap between them lies in the surface.
+bool Snapper::is_beside(const Approach& approach) const {
+  if (approach.distance <= k_exact * tolerance_) return false;
+  const Vec3 gap = unit(approach.at_b - approach.at_a);
+  const Vec3 along_a = unit(direction_at(approach.a)), along_b = unit(direction_at(approach.b));
+  const auto square = [](double x) { return x * x; };
+  // One goes on where the other one ends.
+  if (square(dot(gap, along_a)) + square(dot(gap, along_b)) > 0.5) return false;
+  const Vec3 a = normal_at(approach.a), b = normal_at(approach.b);
+  if (a != Vec3{} && b != Vec3{}) {
+    return square(dot(gap, unit(a))) + square(dot(gap, unit(b))) < 0.5;
+  }
+  return length(cross(along_a, along_b)) < k_along;
+}
+
+// The places that are to be joined: those of the approach, or the ends and nodes near them.
+Meeting Snapper::meet(const Approach& approach, double reach) const {
+  Meeting m = {approach.a, approach.b, approach.at_a, approach.at_b, 0};
+  const auto take = [&](uint32_t bead, WirePlace* place, Vec3* at) {
+    *place = {bead_[bead].edge, bead_[bead].part};
+    *at = bead_[bead].position;
+    m.free_ends += is_free_end(bead);
+  };
+  const auto follow = [this](const Vec3& target, WirePlace* place, Vec3* at) {
+    *place = nearest_place(*place, target);
+    *at = point_of_place(wires_, curve_[place->edge], *place);
+  };
+  const uint32_t x = promote(m.a, m.b, m.at_b, reach);
   if (x != k_none) {
-    a = at_bead(x);
-    at_a = bead_[x].position;
-    b = nearest_place(b, at_a);
-    at_b = point_of_place(wires_, curve_[b.edge], b);
+    take(x, &m.a, &m.at_a);
+    follow(m.at_a, &m.b, &m.at_b);
   }
-  const uint32_t y = promote(b, at_a);
-  if (y != k_none) {
-    b = at_bead(y);
-    at_b = bead_[y].position;
-    if (x == k_none) {
-      a = nearest_place(a, at_b);
-      at_a = point_of_place(wires_, curve_[a.edge], a);
-      x = promote(a, at_b);
-      if (x != k_none) {
-        a = at_bead(x);
-        at_a = bead_[x].position;
-      }
-    }
-  }
-  const double distance = length(at_a - at_b);
-  if (!(distance <= tolerance_)) return {};
-  const uint32_t free_ends = (x != k_none && is_free_end(x)) + (y != k_none && is_free_end(y));
-  if (free_ends == 0 && component_[curve_[a.edge]] == component_[curve_[b.edge]] &&
-      distance > (complete_ ? k_crossing_in_complete : k_crossing) * tolerance_) {
-    return {};
-  }
-  bool together = false;
-  TRY(connected(locate(a), locate(b), detour(free_ends, distance), &together));
-  if (together) return {};
-  x = make_bead(a);
-  const uint32_t z = make_bead(b);
-  const uint32_t from = sets_.find(x), to = sets_.find(z);
-  if (from == to) return {};
-  Snap snap = {origin_of(a), origin_of(b), at_a, at_b, distance, SnapKind::inside_inside};
+  const uint32_t y = promote(m.b, m.a, m.at_a, reach);
+  if (y == k_none) return m;
+  take(y, &m.b, &m.at_b);
+  if (x != k_none) return m;
+  follow(m.at_b, &m.a, &m.at_a);
+  const uint32_t again = promote(m.a, m.b, m.at_b, reach);
+  if (again != k_none) take(again, &m.a, &m.at_a);
+  return m;
+}
+
+void Snapper::unite_points(uint32_t a, uint32_t b) {
+  if (!sets_.unite(a, b)) return;
+  const uint32_t kept = bead_[a].ring;
+  bead_[a].ring = bead_[b].ring;
+  bead_[b].ring = kept;
+  touched_[sets_.find(a)] = 1;
+}
+
+Status Snapper::unite(const Meeting& m, SnapResult* result) {
+  const uint32_t x = make_bead(m.a), z = make_bead(m.b);
+  if (sets_.find(x) == sets_.find(z)) return {};
+  Snap snap = {origin_of(m.a), origin_of(m.b), m.at_a, m.at_b, 0.0, SnapKind::inside_inside};
+  snap.distance = length(m.at_a - m.at_b);
   if (is_end(x) || is_end(z)) snap.kind = SnapKind::end_inside;
   if (is_end(x) && is_end(z)) snap.kind = SnapKind::end_end;
   TRY(result->snaps.push(snap));
-  sets_.unite(x, z);
-  const uint32_t kept = bead_[x].ring;
-  bead_[x].ring = bead_[z].ring;
-  bead_[z].ring = kept;
-  touched_[sets_.find(x)] = 1;
+  unite_points(x, z);
+  parts_.unite(component_[curve_of(x)], component_[curve_of(z)]);
   return {};
+}
+
+// Curves that pass side by side are joined only where nothing else joins their components. Where
+// curves cross they share a point, however near the ways round by other curves are; so do an end
+// and the curve on which it lies.
+Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) {
+  const double reach = node_reach(approach.distance);
+  const Meeting m = meet(approach, reach);
+  const double distance = length(m.at_a - m.at_b);
+  if (!(distance <= tolerance_)) return {};
+  const uint32_t a = component_[curve_[m.a.edge]], b = component_[curve_[m.b.edge]];
+  const double crossing = (complete_ ? k_crossing_in_complete : k_crossing) * tolerance_;
+  if (m.free_ends == 0) {
+    if (a == b && distance > crossing) return {};
+    if (beside && parts_.find(a) == parts_.find(b)) return {};
+  }
+  bool together = false;
+  const bool on_it = exact_ && m.free_ends == 1 && distance <= k_exact * tolerance_;
+  TRY(connected(locate(m.a), locate(m.b), detour(m.free_ends, distance, reach), on_it, &together));
+  if (!together) return unite(m, result);
+  if (!exact_ || m.free_ends > 0 || beside || approach.distance > crossing) return {};
+  TRY(connected(locate(approach.a), locate(approach.b), detour(0, distance, reach), true,
+                &together));
+  if (together) return {};
+  return unite({approach.a, approach.b, approach.at_a, approach.at_b, 0}, result);
 }
 
 // Pairs of components that come nearer to each other than the tolerance.
@@ -339,6 +469,24 @@ Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
   return {};
 }
 
+// In which pass each approach is joined. Of exact curves, ends that clearly meet a curve are
+// settled first, or crossings near them would take them away; curves side by side come last, when
+// all is joined that crosses. Of others what is nearest is what is likeliest.
+Status Snapper::plan(Span<const Approach> approaches, Array<uint8_t>* pass) {
+  TRY(pass->resize(approaches.size()));
+  size_t others = 0, exact = 0;
+  for (size_t k = 0; k < approaches.size(); ++k) {
+    const Approach& a = approaches[k];
+    (*pass)[k] = is_beside(a) ? k_beside : ends_on(a) ? k_settled : k_crosses;
+    if ((*pass)[k] == k_beside) continue;
+    ++others;
+    exact += a.distance <= k_exact * tolerance_;
+  }
+  exact_ = 4 * exact >= 3 * others;
+  for (size_t k = 0; k < pass->size() && !exact_; ++k) (*pass)[k] = k_crosses;
+  return {};
+}
+
 Status Snapper::run(SnapResult* result) {
   WireCounts counts;
   Array<Approach> approaches(context());
@@ -355,10 +503,16 @@ Status Snapper::run(SnapResult* result) {
   });
   TRY(string_beads(approaches.size()));
   TRY(count_open(approaches.span(), &result->open_before));
-  for (size_t k = 0; k < approaches.size(); ++k) {
-    TRY(join(approaches[k], result));
-    if (k % 64 == 63) TRY(context().checkpoint());
+  Array<uint8_t> pass(context());
+  TRY(parts_.reset(counts.components));
+  TRY(plan(approaches.span(), &pass));
+  for (uint8_t now = k_settled; now <= k_beside; ++now) {
+    for (size_t k = 0; k < approaches.size(); ++k) {
+      if (pass[k] == now) TRY(join(approaches[k], now == k_beside, result));
+      if (k % 64 == 63) TRY(context().checkpoint());
+    }
   }
+  unite_close_nodes();
   return count_open(approaches.span(), &result->open_after);
 }
 
@@ -420,16 +574,69 @@ static Vec3 normal_between(const Vec3& a, const Vec3& b, double part) {
   return sum > 0.0 ? unit((1.0 - part) * a + part * b) : Vec3{};
 }
 
+// New nodes next to each other on a curve, as where many curves meet in about one point.
+void Snapper::unite_close_nodes() {
+  for (uint32_t c = 0; c < wires_.curves(); ++c) {
+    const uint32_t first = wires_.start[c];
+    uint32_t last = k_none, b = first;
+    double away = 0.0;
+    do {
+      if (bead_[b].ring != b) {
+        const bool near = last != k_none && away <= k_one_node * tolerance_;
+        if (near && (touched_[sets_.find(last)] || touched_[sets_.find(b)])) unite_points(last, b);
+        last = b;
+        away = 0.0;
+      }
+      away += bead_[b].to_next;
+      b = bead_[b].next;
+    } while (b != k_none && b != first);
+  }
+}
+
+// The beads of a curve without those on a short way from a new node back to itself.
+void Snapper::list_beads(uint32_t c, Array<uint32_t>* order, Array<double>* arc) {
+  order->clear(), arc->clear();
+  double length = 0.0;
+  const auto take_back = [&](uint32_t root, double from) {
+    for (size_t k = order->size(); k-- > 0 && from - (*arc)[k] <= 2.0 * tolerance_;) {
+      if (sets_.find((*order)[k]) != root) continue;
+      order->shrink(k + 1), arc->shrink(k + 1);
+      return true;
+    }
+    return false;
+  };
+  for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
+    if (b == wires_.start[c] && !order->empty()) break;
+    if (!touched_[sets_.find(b)] || !take_back(sets_.find(b), length)) {
+      order->push_reserved(b), arc->push_reserved(length);
+    }
+    length += bead_[b].to_next;
+  }
+  const uint32_t first = (*order)[0];
+  if (wires_.closed[c] && touched_[sets_.find(first)] && order->size() > 1) {
+    if (take_back(sets_.find(first), length) && order->size() > 1) order->pop();
+  }
+  if (order->size() >= (wires_.closed[c] ? 3 : 2)) return;
+  order->clear();  // nothing would be left
+  for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
+    if (b == wires_.start[c] && !order->empty()) break;
+    order->push_reserved(b);
+  }
+}
+
 // All points that were united come to their place; samples between them follow.
 Status Snapper::write(Wires* out) {
   Array<Vec3> displacement(context()), target(context());
   Array<uint8_t> pinned(context());
-  Array<uint32_t> seen(context()), name(context());
+  Array<uint32_t> seen(context()), name(context()), order(context());
+  Array<double> arc(context());
   const uint32_t n = static_cast<uint32_t>(bead_.size());
   TRY(displacement.assign(n, Vec3{}));
   TRY(target.resize(n));
   TRY(pinned.assign(n, 0));
   TRY(name.assign(n, k_none));
+  TRY(order.reserve(n));
+  TRY(arc.reserve(n));
   TRY(seen.assign(wires_.points + size_t{n}, k_none));
   for (uint32_t b = 0; b < n; ++b) {
     const uint32_t root = sets_.find(b);
@@ -444,8 +651,8 @@ Status Snapper::write(Wires* out) {
   out->start.push_reserved(0);
   out->points = 0;
   for (uint32_t c = 0; c < wires_.curves(); ++c) {
-    for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
-      if (b == wires_.start[c] && out->samples() > out->start[c]) break;
+    list_beads(c, &order, &arc);
+    for (const uint32_t b : order) {
       const Bead& bead = bead_[b];
       const uint32_t i = bead.edge, root = sets_.find(b);
       if (name[root] == k_none) name[root] = out->points++;
