@@ -115,13 +115,15 @@ static EdgesAtPlace edges_at(const EdgeSet& edges, uint32_t edge, double part) {
 }
 
 static bool is_least(const EdgeSet& edges, uint32_t a, uint32_t b, const ChordApproach& chords) {
+  constexpr double k_rounding = 1e-13;  // lengths are about one
+  const double least = chords.distance * (1.0 - 1e-9) - k_rounding;
   const EdgesAtPlace at_a = edges_at(edges, a, chords.s), at_b = edges_at(edges, b, chords.t);
   for (uint32_t i = 0; i < at_a.count; ++i) {
     for (uint32_t k = 0; k < at_b.count; ++k) {
       if (i + k == 0) continue;
       const uint32_t e = at_a.edge[i], f = at_b.edge[k];
       if (edges.share_a_sample(e, f)) return false;
-      if (edges.chords(e, f).distance < chords.distance * (1.0 - 1e-9)) return false;
+      if (edges.chords(e, f).distance < least) return false;
     }
   }
   return true;

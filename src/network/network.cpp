@@ -1,31 +1,10 @@
 #include "network/network.h"
 
-#include "base/sort.h"
-#include "curves/sides.h"
+#include "network/rotation.h"
 
 namespace wireskin::network {
 
 namespace {
-
-// What the steps below share. Half-segments are numbered as in the header.
-struct Graph {
-  const curves::Curves& curves;
-  Span<const Node> nodes;
-  Span<const Segment> segments;
-
-  const Segment& segment_of(uint32_t h) const { return segments[h / 2]; }
-  uint32_t from(uint32_t h) const { return h % 2 == 0 ? segment_of(h).from : segment_of(h).to; }
-  curves::Curve curve_of(uint32_t h) const { return curves[segment_of(h).curve]; }
-  // With the normals on the left of the half-segment.
-  curves::Curve side_of(uint32_t h) const {
-    return h % 2 == 0 ? curve_of(h) : seen_from_right(curves, segment_of(h).curve);
-  }
-};
-
-struct Leaving {
-  uint32_t half_segment;
-  double angle;
-};
 
 struct Cycles {
   Array<uint32_t> next;   // of each half-segment
@@ -36,17 +15,6 @@ struct Cycles {
 };
 
 }  // namespace
-
-static Status fail_at_node(Code code, const char* sentence, const Graph& graph, uint32_t node,
-                           uint32_t h) {
-  const Segment& segment = graph.segment_of(h);
-  const curves::Curve curve = graph.curve_of(h);
-  Place place;
-  place.node = graph.nodes[node].number;
-  place.curve = segment.curve;
-  place.sample = curve.sample[h % 2 == 0 ? segment.first_knot : segment.last_knot];
-  return fail(code, sentence, place);
-}
 
 // The stretches between the nodes of one curve.
 static Status cut_curve(const curves::Curve& curve, uint32_t index, bool boundary,
@@ -67,120 +35,6 @@ static Status cut_curve(const curves::Curve& curve, uint32_t index, bool boundar
     if (curve.node[knot] == k_none) continue;
     TRY(segments->push({index, first, knot, curve.node[first], curve.node[knot], boundary}));
     first = knot;
-  }
-  return {};
-}
-
-// The direction in which half-segment h leaves its node: the tangent, or the secant over a part of
-// its length where curves touch and tangents do not tell them apart.
-static Vec3 direction(const Graph& graph, uint32_t h, double distance) {
-  const Segment& segment = graph.segment_of(h);
-  const curves::Curve curve = graph.curve_of(h);
-  const bool forward = h % 2 == 0;
-  const uint32_t knot = forward ? segment.first_knot : segment.last_knot;
-  if (distance == 0.0) {
-    const Vec3 tangent = tangent_at_knot(curve, knot);
-    return forward ? tangent : -tangent;
-  }
-  const double s = forward ? curve.arc[knot] + distance : curve.arc[knot] - distance;
-  return point_at(curve, segment.first_knot, segment.last_knot, s).position -
-         curve.position.value[knot];
-}
-
-// Grows with the angle from the x axis, counter-clockwise, from 0 to 4; no trigonometry needed.
-static double diamond_angle(double x, double y) {
-  const double t = y / (std::fabs(x) + std::fabs(y));
-  if (x < 0.0) return 2.0 - t;
-  return y < 0.0 ? 4.0 + t : t;
-}
-
-static double shortest_length(const Graph& graph, Span<const Leaving> leaving) {
-  double shortest = -1.0;
-  for (const Leaving& l : leaving) {
-    const Segment& segment = graph.segment_of(l.half_segment);
-    const curves::Curve curve = graph.curve_of(l.half_segment);
-    const double length = curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
-    if (shortest < 0.0 || length < shortest) shortest = length;
-  }
-  return shortest;
-}
-
-// Angles of all half-segments that leave a node, in the plane across its normal.
-static Status measure_angles(const Graph& graph, uint32_t node, double distance,
-                             Span<Leaving> leaving) {
-  const Vec3& n = graph.nodes[node].normal;
-  const double ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
-  const Vec3 axis = ax <= ay && ax <= az ? Vec3{1, 0, 0} : ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  const Vec3 u = unit(reject(axis, n));
-  const Vec3 v = cross(n, u);
-  for (Leaving& l : leaving) {
-    const Vec3 d = direction(graph, l.half_segment, distance);
-    const double x = dot(d, u), y = dot(d, v);
-    constexpr double k_least_sine = 1e-3;
-    if (!(x * x + y * y > k_least_sine * k_least_sine * dot(d, d))) {
-      return fail_at_node(Code::tangent_normal, "the normal of the node is parallel to the curve",
-                          graph, node, l.half_segment);
-    }
-    l.angle = diamond_angle(x, y);
-  }
-  return {};
-}
-
-static bool all_differ(Span<const Leaving> sorted) {
-  constexpr double k_least_gap = 1e-6;
-  for (size_t i = 0; i < sorted.size(); ++i) {
-    const bool wraps = i + 1 == sorted.size();
-    const double next = wraps ? sorted[0].angle + 4.0 : sorted[i + 1].angle;
-    if (sorted.size() > 1 && next - sorted[i].angle < k_least_gap) return false;
-  }
-  return true;
-}
-
-// Sorts the half-segments that leave a node counter-clockwise.
-static Status sort_round_node(const Graph& graph, uint32_t node, Span<Leaving> leaving) {
-  const double shortest = shortest_length(graph, leaving);
-  constexpr double k_parts[] = {0.0, 1.0 / 32.0, 0.25};
-  for (double part : k_parts) {
-    TRY(measure_angles(graph, node, part * shortest, leaving));
-    sort(leaving, [](const Leaving& a, const Leaving& b) {
-      return a.angle != b.angle ? a.angle < b.angle : a.half_segment < b.half_segment;
-    });
-    if (all_differ(leaving)) return {};
-  }
-  return fail_at_node(Code::inconsistent_normals,
-                      "two curves leave the node in the same direction, seen along its normal",
-                      graph, node, leaving[0].half_segment);
-}
-
-// Coming into a node along h, the way goes on clockwise of where it came from.
-static Status link_half_segments(const Graph& graph, Span<uint32_t> next) {
-  Context& context = graph.curves.start.context();
-  Array<uint32_t> start(context);
-  Array<Leaving> leaving(context);
-  TRY(start.assign(graph.nodes.size() + 1, 0));
-  TRY(leaving.resize(next.size()));
-  for (uint32_t h = 0; h < next.size(); ++h) {
-    if (graph.from(h) == k_none) {
-      next[h] = h;  // a closed curve without node is its own cycle
-    } else {
-      ++start[graph.from(h)];
-    }
-  }
-  starts_from_counts(start.span());
-  Array<uint32_t> fill(context);
-  TRY(fill.copy(start.span()));
-  for (uint32_t h = 0; h < next.size(); ++h) {
-    if (graph.from(h) != k_none) leaving[fill[graph.from(h)]++] = {h, 0.0};
-  }
-  for (uint32_t node = 0; node < graph.nodes.size(); ++node) {
-    const Span<Leaving> round = leaving.span().part(start[node], start[node + 1] - start[node]);
-    if (round.empty()) continue;
-    TRY(sort_round_node(graph, node, round));
-    for (size_t i = 0; i < round.size(); ++i) {
-      const size_t clockwise = i == 0 ? round.size() - 1 : i - 1;
-      next[opposite(round[i].half_segment)] = round[clockwise].half_segment;
-    }
-    if (node % 4096 == 4095) TRY(context.checkpoint());
   }
   return {};
 }

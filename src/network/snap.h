@@ -2,16 +2,15 @@
 // other.
 //
 // In: welded, chained curves and a tolerance. Local minima of the distance between curves are taken
-// nearest first. One is left alone where the network connects its places already within four
-// tolerances (a loose end: four times the distance, two loose ends: twice); where it lies near an
-// end or a node of a curve that is no farther than the tolerance from the other place, that end or
-// node takes part instead. Two insides are joined only if the curves were in different connected
-// components to begin with, or cross: at a quarter of the tolerance, or at a hundredth in a network
-// that is complete (one component, no dangling ends). A place between samples becomes a sample.
-// Where a place was connected already it stays and the others come to it, else an end comes to the
-// inside of a curve, else both meet in the middle. Out: the curves, bent (network/bend.h), with the
-// points united; the list of joints. Cost: that of finding the approaches, and of a search over the
-// samples within four tolerances for each.
+// nearest first and left alone where the network connects their places already within four
+// tolerances (a loose end: four times the distance, two: twice); an end or a node no farther than
+// the tolerance takes part instead of a place near it. Insides are joined only where the curves
+// were in different components, or cross: at a quarter of the tolerance, or at a hundredth in a
+// network that is complete. Where three quarters of the gaps are next to nothing (curves drawn on a
+// surface), every crossing gets its point, ends are settled first, and curves side by side are
+// joined only where nothing else joins their components. Out: the curves, bent (network/bend.h),
+// points that were joined staying and ends coming to insides; the list of joints. Cost: that of the
+// approaches and of a search over the samples within four tolerances for each.
 #pragma once
 
 #include "network/approach.h"
