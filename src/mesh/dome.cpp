@@ -46,57 +46,99 @@ static void multiply_points(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3>
   }
 }
 
-Status raise_dome(Context& context, const Loops& loops, Span<const uint32_t> triangle,
-                  Span<Vec3> position) {
+namespace {
+
+// A mesh's Laplacian and the systems of least bending made from it.
+struct Bending {
+  sparse::Csc laplacian;
+  Array<double> weight;     // of each vertex, the inverse of its area
+  Array<uint32_t> unknown;  // of each vertex, k_none where held
+  Array<Vec3> target;       // of each vertex: what its integrated Laplacian should be
+
+  explicit Bending(Context& context)
+      : laplacian(context), weight(context), unknown(context), target(context) {}
+};
+
+}  // namespace
+
+static Status take_mesh(Span<const Vec3> position, Span<const uint32_t> triangle, uint32_t held,
+                        Bending* bending) {
   const uint32_t n = static_cast<uint32_t>(position.size());
-  const uint32_t rim = loops.start[loops.count()];
-  if (rim == n) return {};
-  Array<TriangleShape> shape(context);
-  sparse::Csc laplacian(context), matrix(context);
-  sparse::Cholesky factor(context);
-  Array<double> weight(context), solution(context);
-  Array<Vec3> rest(context), image(context), normal(context);
-  Array<uint32_t> unknown(context), order(context);
+  Array<TriangleShape> shape(bending->weight.context());
   TRY(triangle_shapes(position, triangle, &shape));
-  TRY(cotangent_laplacian(n, triangle, shape.span(), &laplacian));
-  TRY(weight.resize(n));
-  TRY(unknown.resize(n));
-  TRY(rest.resize(n));
-  TRY(image.assign(n, Vec3{}));
-  TRY(solution.resize(3 * size_t{n - rim}));
-  TRY(normal.resize(n));
-  mixed_voronoi_areas(triangle, shape.span(), weight.span());
-  vertex_normals(position, triangle, normal.span());
-  const double curvature = normal_curvature(loops) * (loops.count() == 1 ? 1.0 : 0.5);
-  for (uint32_t v = 0; v < n; ++v) {
-    normal[v] = -2.0 * curvature * weight[v] * (v < rim ? loops.normal[v] : normal[v]);
-    weight[v] = 1.0 / weight[v];
-    unknown[v] = v < rim ? k_none : v - rim;
-    rest[v] = v < rim ? position[v] : Vec3{};
-  }
-  multiply_points(laplacian, rest.span(), image.span());
-  for (Vec3& p : rest) p = Vec3{};
-  TRY(integrate_conormals(loops, rest.span(), weight.span()));
-  // The integrated Laplacian of a loop vertex is that of the mesh less the flux through the loop.
-  for (uint32_t v = 0; v < n; ++v) rest[v] = weight[v] * (rest[v] + normal[v] - image[v]);
-  multiply_points(laplacian, rest.span(), image.span());
-  TRY(sparse::weighted_product(laplacian, weight.span(), laplacian, unknown.span(), n - rim,
-                               sparse::Part::lower, &matrix));
+  TRY(cotangent_laplacian(n, triangle, shape.span(), &bending->laplacian));
+  TRY(bending->weight.resize(n));
+  TRY(bending->unknown.resize(n));
+  TRY(bending->target.assign(n, Vec3{}));
+  mixed_voronoi_areas(triangle, shape.span(), bending->weight.span());
+  for (uint32_t v = 0; v < n; ++v) bending->unknown[v] = v < held ? k_none : v - held;
+  return {};
+}
+
+// Solves for the field whose Laplacian comes nearest to the target; `field` is given where held.
+static Status bend_least(const Bending& bending, uint32_t held, Span<Vec3> field) {
+  Context& context = bending.weight.context();
+  const uint32_t n = static_cast<uint32_t>(field.size());
+  sparse::Csc matrix(context);
+  sparse::Cholesky factor(context);
+  Array<double> solution(context);
+  Array<Vec3> rest(context), image(context);
+  Array<uint32_t> order(context);
+  TRY(rest.assign(n, Vec3{}));
+  TRY(image.resize(n));
+  TRY(solution.resize(3 * size_t{n - held}));
+  for (uint32_t v = 0; v < held; ++v) rest[v] = field[v];
+  multiply_points(bending.laplacian, rest.span(), image.span());
+  for (uint32_t v = 0; v < n; ++v) rest[v] = bending.weight[v] * (bending.target[v] - image[v]);
+  multiply_points(bending.laplacian, rest.span(), image.span());
+  TRY(sparse::weighted_product(bending.laplacian, bending.weight.span(), bending.laplacian,
+                               bending.unknown.span(), n - held, sparse::Part::lower, &matrix));
   TRY(sparse::minimum_degree(matrix, &order));
   TRY(factor.analyse(matrix, order.span()));
   Status factored = factor.factor(matrix);
   factored.place = {};
   TRY(factored);
-  for (uint32_t v = rim; v < n; ++v) {
-    double* row = &solution[3 * size_t{v - rim}];
+  for (uint32_t v = held; v < n; ++v) {
+    double* row = &solution[3 * size_t{v - held}];
     row[0] = image[v].x, row[1] = image[v].y, row[2] = image[v].z;
   }
   TRY(factor.solve(solution.span(), 3));
-  for (uint32_t v = rim; v < n; ++v) {
-    const double* row = &solution[3 * size_t{v - rim}];
-    position[v] = {row[0], row[1], row[2]};
+  for (uint32_t v = held; v < n; ++v) {
+    const double* row = &solution[3 * size_t{v - held}];
+    field[v] = {row[0], row[1], row[2]};
   }
   return {};
+}
+
+Status raise_dome(Context& context, const Loops& loops, uint32_t held,
+                  Span<const uint32_t> triangle, Span<Vec3> position) {
+  const uint32_t n = static_cast<uint32_t>(position.size());
+  const uint32_t rim = loops.start[loops.count()];
+  if (held == n) return {};
+  Bending bending(context);
+  Array<Vec3> normal(context);
+  TRY(take_mesh(position, triangle, held, &bending));
+  TRY(normal.resize(n));
+  vertex_normals(position, triangle, normal.span());
+  const double curvature = normal_curvature(loops) * (loops.count() == 1 ? 1.0 : 0.5);
+  for (uint32_t v = 0; v < n; ++v) {
+    normal[v] = -2.0 * curvature * bending.weight[v] * (v < rim ? loops.normal[v] : normal[v]);
+    bending.weight[v] = 1.0 / bending.weight[v];
+  }
+  // The integrated Laplacian of a loop vertex is that of the mesh less the flux through the loop.
+  TRY(integrate_conormals(loops, bending.target.span(), bending.weight.span()));
+  for (uint32_t v = 0; v < n; ++v) bending.target[v] += normal[v];
+  return bend_least(bending, held, position);
+}
+
+Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
+                    Span<const uint32_t> triangle, Span<Vec3> shift) {
+  if (held == position.size()) return {};
+  Bending bending(context);
+  TRY(take_mesh(position, triangle, held, &bending));
+  for (double& weight : bending.weight) weight = 1.0 / weight;
+  const Status status = bend_least(bending, held, shift);
+  return status.code == Code::not_positive_definite ? Status{} : status;
 }
 
 }  // namespace wireskin::mesh

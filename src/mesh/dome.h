@@ -16,7 +16,13 @@
 namespace wireskin::mesh {
 
 // Fails with not_positive_definite (no place) where triangles are too thin for the system.
-Status raise_dome(Context& context, const Loops& loops, Span<const uint32_t> triangle,
-                  Span<Vec3> position);
+// Vertices before `held` stay, the loops' own and those of curves inside.
+Status raise_dome(Context& context, const Loops& loops, uint32_t held,
+                  Span<const uint32_t> triangle, Span<Vec3> position);
+
+// Completes a field of shifts that is given at the vertices before `held`: least in the squares of
+// its Laplacian, level across the border. A field that the mesh is too thin for stays zero inside.
+Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
+                    Span<const uint32_t> triangle, Span<Vec3> shift);
 
 }  // namespace wireskin::mesh

@@ -21,7 +21,8 @@ namespace {
 
 struct LoopRefinement {
   Span<const uint32_t> start;
-  uint32_t rim;
+  uint32_t rim;               // vertices that are held
+  Span<const uint32_t> edge;  // held edges inside, see HeldCurves
   double spacing;
   size_t most_points = 0;
   Array<Vec3>* position;
@@ -67,6 +68,22 @@ struct Stars {
 
 }  // namespace
 
+static bool is_held(const LoopRefinement& r, uint32_t u, uint32_t v) {
+  if (u >= r.rim || v >= r.rim || r.edge.empty()) return false;
+  const uint32_t a = u < v ? u : v, b = u < v ? v : u;
+  size_t low = 0, high = r.edge.size() / 2;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    const uint32_t* e = &r.edge[2 * middle];
+    if (e[0] < a || (e[0] == a && e[1] < b)) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return 2 * low < r.edge.size() && r.edge[2 * low] == a && r.edge[2 * low + 1] == b;
+}
+
 static Diamond diamond_at(const LoopRefinement& r, uint32_t h) {
   const uint32_t g = r.twins[h];
   return {r.origin(h), r.origin(g), r.apex(h), r.apex(g)};
@@ -105,6 +122,7 @@ static bool improves_by_flip(const LoopRefinement& r, uint32_t h) {
   constexpr double k_gain = 1e-9, k_least_facing = 0.5;
   if (r.twins[h] == k_none) return false;
   const Diamond q = diamond_at(r, h);
+  if (is_held(r, q.a, q.b)) return false;
   const double before =
       larger(greatest_cotangent(r, q.a, q.b, q.c), greatest_cotangent(r, q.b, q.a, q.d));
   const double after =
@@ -183,7 +201,7 @@ static double size_between(const LoopRefinement& r, uint32_t a, uint32_t b) {
 static double excess(const LoopRefinement& r, uint32_t h) {
   if (r.twins[h] == k_none) return 0.0;
   const Diamond q = diamond_at(r, h);
-  if (r.same(q.c, q.d)) return 0.0;
+  if (r.same(q.c, q.d) || is_held(r, q.a, q.b)) return 0.0;
   const Vec3 middle = 0.5 * (r.at(q.a) + r.at(q.b));
   const double size = size_between(r, q.a, q.b);
   if (length(r.at(q.c) - middle) < k_close * size) return 0.0;
@@ -321,6 +339,23 @@ static Status limit_points(LoopRefinement* r) {
   return {};
 }
 
+// Held points inside wish the mean of their curves' edges, those without any the spacing.
+static Status wish_sizes_of_curves(LoopRefinement* r) {
+  const uint32_t first = r->start[r->start.size() - 1];
+  Array<uint32_t> edges(r->suspect.context());
+  TRY(edges.assign(r->rim, 0));
+  for (size_t i = 0; i < r->edge.size(); ++i) {
+    const uint32_t v = r->edge[i], other = r->edge[i ^ 1];
+    if (v < first) continue;
+    r->size[v] += length(r->at(other) - r->at(v));
+    ++edges[v];
+  }
+  for (uint32_t v = first; v < r->rim; ++v) {
+    r->size[v] = edges[v] > 0 ? r->size[v] / edges[v] : r->spacing;
+  }
+  return limit_points(r);
+}
+
 static Status wish_sizes(LoopRefinement* r) {
   TRY(r->size.assign(r->position->size(), r->spacing));
   for (uint32_t v = 0; v < r->rim; ++v) r->size[v] = 0.0;
@@ -333,7 +368,7 @@ static Status wish_sizes(LoopRefinement* r) {
     }
     grade_rim(r, r->start[l], r->start[l + 1] - r->start[l]);
   }
-  return limit_points(r);
+  return wish_sizes_of_curves(r);
 }
 
 // Held points on the border wish the mean of the border's edges there, others the spacing.
@@ -373,11 +408,19 @@ static Status refine_all(LoopRefinement* r) {
 }
 
 Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
-                    Array<Vec3>* position, Array<uint32_t>* triangle) {
+                    const HeldCurves& held, Array<Vec3>* position, Array<uint32_t>* triangle) {
   LoopRefinement r(context, start, spacing, position, triangle);
+  WIRESKIN_ASSERT(held.vertices >= r.rim);
+  r.rim = held.vertices;
+  r.edge = held.edge;
   TRY(find_twins(static_cast<uint32_t>(position->size()), triangle->span(), &r.twins));
   TRY(wish_sizes(&r));
   return refine_all(&r);
+}
+
+Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
+                    Array<Vec3>* position, Array<uint32_t>* triangle) {
+  return refine_loops(context, spacing, start, {start[start.size() - 1], {}}, position, triangle);
 }
 
 Status refine_patch(Context& context, double spacing, bool relax, Span<const uint32_t> name,

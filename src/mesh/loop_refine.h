@@ -15,7 +15,16 @@
 
 namespace wireskin::mesh {
 
+// What the mesh holds beside its loops: all vertices before `vertices`, and edges between them, two
+// vertices each, the lesser first, sorted.
+struct HeldCurves {
+  uint32_t vertices = 0;
+  Span<const uint32_t> edge;
+};
+
 // Fails with too_large where the spacing asks for more vertices than indices can count.
+Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
+                    const HeldCurves& held, Array<Vec3>* position, Array<uint32_t>* triangle);
 Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
                     Array<Vec3>* position, Array<uint32_t>* triangle);
 

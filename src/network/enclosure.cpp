@@ -90,7 +90,7 @@ static void enclose(const CurveVertices& vertices, const Components& components,
   constexpr double k_share_of_width = 0.1, k_share_for_pieces = 0.5, k_weight_of_height = 4.0;
   const double share = components.bounds[c] ? k_share_of_width : k_share_for_pieces;
   const double reach = outline.highest + share * outline.widest;
-  double excess = 0.0;
+  double excess = 0.0, known = 0.0;
   Vec3 normal;
   for (uint32_t v : components.members[c]) {
     const Vec3& p = vertices.position[v];
@@ -99,11 +99,13 @@ static void enclose(const CurveVertices& vertices, const Components& components,
     if (!(length(q) <= outline.widest && height <= reach && inside(outline, q))) return;
     if (height - outline.highest > excess) excess = height - outline.highest;
     normal += vertices.normal[v];
+    known += vertices.normal[v] != Vec3{} ? 1.0 : 0.0;
   }
   if (!components.bounds[c] && dot(normal, outline.plane.normal) < 0.0) return;
   const double score = outline.size + k_weight_of_height * excess;
   if (best->patch != k_none && !(score < best->score)) return;
-  *best = {patch, score, outline.plane.normal};
+  const double facing = known > 0.0 ? dot(normal, outline.plane.normal) / known : 1.0;
+  *best = {patch, score, outline.plane.normal, facing};
 }
 
 Status find_enclosing(const Network& network, const CurveVertices& vertices,

@@ -28,7 +28,8 @@ Status find_components(const Network& network, const CurveVertices& vertices,
 struct Enclosing {
   uint32_t patch = k_none;
   double score = 0.0;
-  Vec3 normal;  // of the patch's plane
+  Vec3 normal;          // of the patch's plane
+  double facing = 1.0;  // the mean cosine with the component's normals; 1 where none is known
 };
 
 // Of each component.

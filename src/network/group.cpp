@@ -1,6 +1,7 @@
 #include "network/group.h"
 
 #include "base/sort.h"
+#include "network/nearest_patch.h"
 #include "num/minmax.h"
 
 namespace wireskin::network {
@@ -12,8 +13,12 @@ static constexpr double k_clearly_closed = 0.5;
 static constexpr double k_least_facing_cosine = 0.2;
 // And with this one where both loops are of one component, neither of them being closed alone.
 static constexpr double k_least_facing_in_component = 0.6;
+// A ring whose normals agree less with its axis has no side of its own: closing it alone is no way.
+static constexpr double k_unclear_side = 0.02;
 // Choices whose areas differ by less than this part are equally good.
 static constexpr double k_hardly_more = 1.1;
+// Pieces that face their plane less clearly are asked where they lie in space.
+static constexpr double k_clearly_facing = 0.5;
 // Rule 2 looks at this many vertices of a loop at most.
 static constexpr uint32_t k_most_probes = 64;
 
@@ -29,7 +34,9 @@ struct Grouping {
   Array<uint32_t> component;   // of each patch
   Array<uint32_t> parent;      // of each patch
   Array<uint8_t> reversed;     // of each patch
+  Array<uint8_t> told;         // of each patch: a ring whose side something inside it tells
   Array<uint32_t> holder;      // of each component that bounds nothing: its patch
+  Array<uint32_t> doubtful;    // the same where another patch may be the right one
   Array<uint8_t> ambiguous;    // of each patch
 
   Grouping(Context& context, const CurveVertices& of, Network* net)
@@ -40,7 +47,9 @@ struct Grouping {
         component(context),
         parent(context),
         reversed(context),
+        told(context),
         holder(context),
+        doubtful(context),
         ambiguous(context) {}
   uint32_t root(uint32_t p) {
     while (parent[p] != p) p = parent[p] = parent[parent[p]];
@@ -61,6 +70,7 @@ struct Facing {
   double alone;           // what closing it costs
   Vec3 centre;
   double radius;
+  bool sideless = false;  // a ring whose normals do not tell on which side it could be closed
 };
 
 struct Probe {
@@ -82,8 +92,10 @@ static Status take_components(Grouping* g) {
   TRY(g->component.resize(patches));
   TRY(g->parent.resize(patches));
   TRY(g->reversed.assign(patches, 0));
+  TRY(g->told.assign(patches, 0));
   TRY(g->ambiguous.assign(patches, 0));
   TRY(g->holder.assign(g->components.members.count(), k_none));
+  TRY(g->doubtful.assign(g->components.members.count(), k_none));
   for (uint32_t p = 0; p < patches; ++p) {
     g->parent[p] = p;
     g->component[p] =
@@ -140,7 +152,7 @@ static Status join_enclosed(Grouping* g) {
     const Enclosing& outer = g->enclosing[c];
     if (g->reversed[outer.patch]) continue;
     if (!g->components.bounds[c]) {
-      g->holder[c] = outer.patch;
+      (outer.facing < k_clearly_facing ? g->doubtful : g->holder)[c] = outer.patch;
       continue;
     }
     uint32_t inner = k_none;
@@ -206,7 +218,9 @@ static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing
       // A ring alone takes the cheaper side.
       TRY(add_facing(border, p, true, -cosine, area, facing, probes));
       Facing *one = &(*facing)[facing->size() - 2], *other = &facing->back();
+      const bool unclear = std::fabs(cosine) < k_unclear_side;
       one->alone = other->alone = smaller(one->alone, other->alone);
+      one->sideless = other->sideless = unclear;
     }
     TRY(border.vertex.context().checkpoint());
   }
@@ -298,9 +312,10 @@ static bool loops_may_join(Grouping* g, const Pairing& pairing, const Band& band
   const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
   const bool wrong_side = (pairing.decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
                           (pairing.decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
-  if (!(band.area < cost_alone(pairing, band)) || wrong_side) return false;
-  const bool same = g->component[a.patch] == g->component[b.patch];
   const bool both_alone = !pairing.joined[band.a] && !pairing.joined[band.b];
+  const bool no_other_way = both_alone && (a.sideless || b.sideless);
+  if (!(no_other_way || band.area < cost_alone(pairing, band)) || wrong_side) return false;
+  const bool same = g->component[a.patch] == g->component[b.patch];
   return same ? both_alone : !share_component(g, pairing.facing.span(), a.patch, b.patch);
 }
 
@@ -361,10 +376,11 @@ static Status check_rings(Grouping* g) {
   constexpr double k_no_cosine = 1e-6, k_clear_area = 1.0 / 60.0;
   Border border(g->parent.context());
   Array<uint32_t> members(g->parent.context());
+  if (g->parent.empty()) return {};
   TRY(members.assign(g->parent.size(), 0));
   for (uint32_t p = 0; p < members.size(); ++p) ++members[g->root(p)];
   for (uint32_t p = 0; p < members.size(); ++p) {
-    if (!g->network->ring[p] || members[g->root(p)] != 1) continue;
+    if (!g->network->ring[p] || members[g->root(p)] != 1 || g->told[p]) continue;
     TRY(border_of_patch(*g->network, g->vertices, p, &border));
     double area = 0.0;
     bool known = false;
@@ -382,10 +398,10 @@ static Status check_rings(Grouping* g) {
   return {};
 }
 
-static Status check_holders(const Grouping& g) {
+static Status check_holders(const Grouping& g, Span<const uint8_t> settled) {
   const Network& network = *g.network;
   for (uint32_t c = 0; c < g.holder.size(); ++c) {
-    if (g.components.bounds[c] || g.holder[c] != k_none) continue;
+    if (g.components.bounds[c] || settled[c] || g.holder[c] != k_none) continue;
     const uint32_t v = g.components.members[c][0];
     Place place;
     place.curve = g.vertices.curve[v];
@@ -419,6 +435,9 @@ static Status append_inside(const Grouping& g, uint32_t p, Span<const uint32_t> 
                             Span<const uint32_t> piece, Network* fresh) {
   const Network& old = *g.network;
   for (uint32_t s : old.inner[p]) TRY(fresh->inner.item.push(s));
+  if (old.point.count() > 0) {
+    for (uint32_t v : old.point[p]) TRY(fresh->point.item.push(v));
+  }
   for (uint32_t c : held) {
     if (piece[c] == k_none) {
       TRY(fresh->point.item.push(g.components.members[c][0]));
@@ -444,8 +463,9 @@ static Status list_held(const Grouping& g, Lists* held) {
   return {};
 }
 
-// Writes the groups as the network's patches, in the order of the least patch of each.
-static Status rebuild(Grouping* g, Ambiguity* ambiguity) {
+// Writes the groups as the network's patches, in the order of the least patch of each. `number`: of
+// each old patch the new one; `ambiguous`: of each new patch.
+static Status rebuild(Grouping* g, Array<uint32_t>* number, Array<uint8_t>* ambiguous) {
   Network& old = *g->network;
   Context& context = old.segment.context();
   Network fresh(context);
@@ -457,6 +477,8 @@ static Status rebuild(Grouping* g, Ambiguity* ambiguity) {
     piece[g->components.of_vertex[old.segment[old.loose[i][0]].from]] = i;
   }
   TRY(order.resize(old.patches()));
+  TRY(number->resize(old.patches()));
+  ambiguous->clear();
   for (uint32_t p = 0; p < order.size(); ++p) order[p] = p;
   sort(order.span(), [&](uint32_t a, uint32_t b) {
     const uint32_t x = g->root(a), y = g->root(b);
@@ -464,14 +486,15 @@ static Status rebuild(Grouping* g, Ambiguity* ambiguity) {
   });
   TRY(fresh.patch_start.push(0));
   for (size_t first = 0, end = 0; first < order.size(); first = end) {
-    bool ambiguous = false;
+    uint8_t any = 0;
     while (end < order.size() && g->root(order[end]) == g->root(order[first])) {
       const uint32_t p = order[end++];
-      ambiguous = ambiguous || g->ambiguous[p];
+      any |= g->ambiguous[p];
+      (*number)[p] = fresh.patches();
       TRY(append_loops(*g, p, &fresh.loop));
       TRY(append_inside(*g, p, held[p], piece.span(), &fresh));
     }
-    if (ambiguous && ambiguity->patches++ == 0) ambiguity->first = fresh.patches();
+    TRY(ambiguous->push(any));
     TRY(fresh.patch_start.push(fresh.loop.count()));
     TRY(fresh.ring.push(end - first == 1 ? old.ring[order[first]] : uint8_t{0}));
     TRY(fresh.inner.close());
@@ -479,21 +502,167 @@ static Status rebuild(Grouping* g, Ambiguity* ambiguity) {
     TRY(context.checkpoint());
   }
   fresh.segment = static_cast<Array<Segment>&&>(old.segment);
+  fresh.loose = static_cast<Lists&&>(old.loose);
   old = static_cast<Network&&>(fresh);
   return {};
+}
+
+// ---- Rule 3 -------------------------------------------------------------------------------------
+
+namespace {
+
+// What may lie on a surface: a component that bounds nothing (patch k_none), or one with a loop
+// that is no outer one.
+struct Guest {
+  uint32_t component;
+  uint32_t patch;
+};
+
+}  // namespace
+
+static void reverse_loop(Border* border) {
+  const auto reverse = [](auto& array) {
+    for (size_t i = 0, j = array.size() - 1; i < j; ++i, --j) {
+      const auto kept = array[i];
+      array[i] = array[j];
+      array[j] = kept;
+    }
+  };
+  reverse(border->vertex);
+  reverse(border->position);
+  reverse(border->normal);
+}
+
+// `clockwise`: of each patch, whether it has one loop and that runs so.
+static Status list_guests(const Grouping& g, Span<const uint8_t> settled, Array<uint8_t>* clockwise,
+                          Array<Guest>* guests) {
+  constexpr double k_clearly_round = 0.3;
+  const Network& network = *g.network;
+  Border border(guests->context());
+  TRY(clockwise->assign(network.patches(), 0));
+  for (uint32_t c = 0; c < g.holder.size(); ++c) {
+    if (!g.components.bounds[c] && !settled[c]) TRY(guests->push({c, k_none}));
+  }
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    if (network.patch_start[p + 1] != network.patch_start[p] + 1) continue;
+    TRY(border_of_patch(network, g.vertices, p, &border));
+    double area = 0.0;
+    const double cosine = closing_cosine(border, &area);
+    (*clockwise)[p] = !network.ring[p] && cosine < -k_clearly_round;
+    const bool round_ring = network.ring[p] && std::fabs(cosine) > k_clearly_round;
+    if ((*clockwise)[p] || round_ring) TRY(guests->push({g.component[p], p}));
+  }
+  return {};
+}
+
+// Whether some guest is no farther from the border's box than its diagonal.
+static bool has_guest_near(const Grouping& g, const Border& border, Span<const Guest> guests) {
+  Vec3 centre;
+  double reach = 0.0;
+  for (const Vec3& p : border.position) centre += (1.0 / border.size()) * p;
+  for (const Vec3& p : border.position) reach = larger(reach, length(p - centre));
+  for (const Guest& guest : guests) {
+    const Vec3& p = g.vertices.position[g.components.members[guest.component][0]];
+    if (length(p - centre) < 3.0 * reach) return true;
+  }
+  return false;
+}
+
+static Status guess_patches(const Grouping& g, Span<const uint8_t> clockwise,
+                            Span<const Guest> guests, PatchGuesses* guesses) {
+  constexpr double k_either_side = 0.3;
+  Border border(guesses->patch.context());
+  for (uint32_t p = 0; p < g.network->patches(); ++p) {
+    if (clockwise[p]) continue;
+    TRY(border_of_patch(*g.network, g.vertices, p, &border));
+    if (!has_guest_near(g, border, guests)) continue;
+    double area = 0.0;
+    const double cosine = closing_cosine(border, &area);
+    const bool ring = g.network->ring[p] != 0;
+    if (!ring || cosine > -k_either_side) TRY(add_guess(border, 2 * p, guesses));
+    if (!ring || cosine > k_either_side) continue;
+    reverse_loop(&border);
+    TRY(add_guess(border, 2 * p + 1, guesses));
+  }
+  return {};
+}
+
+// The patch on which a guest lies; a ring is turned to the side found.
+static uint32_t host_of(Grouping* g, const Guest& guest, const PatchGuesses& guesses,
+                        Span<uint8_t> turned) {
+  constexpr double k_farthest_piece = 0.5, k_farthest_loop = 0.25;
+  const bool loop = guest.patch != k_none;
+  const Piece piece = {g->components.members[guest.component],
+                       loop ? k_farthest_loop : k_farthest_piece, loop ? k_clearly_facing : 0.0,
+                       guest.patch};
+  const uint32_t found = nearest_patch(g->vertices, piece, guesses);
+  if (found == k_none) return k_none;
+  const uint32_t host = guesses.patch[found].number / 2, side = guesses.patch[found].number % 2;
+  if (loop && g->component[host] == guest.component) return k_none;
+  if (g->network->ring[host] && turned[host] != side + 1) {
+    if (turned[host] != 0) return k_none;  // another guest has turned it the other way
+    turned[host] = static_cast<uint8_t>(side + 1);
+    g->reversed[host] = static_cast<uint8_t>(side);
+    g->told[host] = 1;
+  }
+  return host;
+}
+
+static Status join_guests(Grouping* g, Span<const uint8_t> settled) {
+  Context& context = g->parent.context();
+  Array<Guest> guests(context);
+  Array<uint8_t> clockwise(context), turned(context);
+  PatchGuesses guesses(context);
+  if (g->components.members.count() < 2) return {};
+  TRY(list_guests(*g, settled, &clockwise, &guests));
+  if (guests.empty()) return {};
+  TRY(guess_patches(*g, clockwise.span(), guests.span(), &guesses));
+  TRY(turned.assign(g->network->patches(), 0));
+  for (const Guest& guest : guests) {
+    const uint32_t host = host_of(g, guest, guesses, turned.span());
+    TRY(context.checkpoint());
+    if (guest.patch == k_none) {
+      g->holder[guest.component] = host != k_none ? host : g->doubtful[guest.component];
+      continue;
+    }
+    if (host == k_none || g->root(host) == g->root(guest.patch)) continue;
+    g->reversed[guest.patch] = g->network->ring[guest.patch];
+    g->join(host, guest.patch);
+  }
+  return {};
+}
+
+static void count_ambiguous(Span<const uint8_t> ambiguous, Ambiguity* ambiguity) {
+  for (uint32_t p = 0; p < ambiguous.size(); ++p) {
+    if (ambiguous[p] && ambiguity->patches++ == 0) ambiguity->first = p;
+  }
 }
 
 Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity* ambiguity) {
   Ambiguity unasked;
   Context& context = network->segment.context();
-  Grouping g(context, vertices, network);
-  TRY(take_components(&g));
-  TRY(find_enclosing(*network, vertices, g.components, &g.enclosing));
-  TRY(join_enclosed(&g));
-  TRY(join_facing(&g));
-  TRY(check_rings(&g));
-  TRY(check_holders(g));
-  return rebuild(&g, ambiguity != nullptr ? ambiguity : &unasked);
+  Grouping planes(context, vertices, network), spaces(context, vertices, network);
+  Array<uint32_t> number(context);
+  Array<uint8_t> settled(context), ambiguous(context);
+  TRY(take_components(&planes));
+  TRY(find_enclosing(*network, vertices, planes.components, &planes.enclosing));
+  TRY(join_enclosed(&planes));
+  TRY(join_facing(&planes));
+  TRY(rebuild(&planes, &number, &ambiguous));
+  TRY(take_components(&spaces));
+  TRY(settled.assign(planes.holder.size(), 0));
+  for (size_t c = 0; c < settled.size(); ++c) {
+    settled[c] = planes.holder[c] != k_none;
+    const uint32_t doubtful = planes.doubtful[c];
+    if (doubtful != k_none) spaces.doubtful[c] = number[doubtful];
+  }
+  for (size_t p = 0; p < ambiguous.size(); ++p) spaces.ambiguous[p] = ambiguous[p];
+  TRY(join_guests(&spaces, settled.span()));
+  TRY(check_rings(&spaces));
+  TRY(check_holders(spaces, settled.span()));
+  TRY(rebuild(&spaces, &number, &ambiguous));
+  count_ambiguous(ambiguous.span(), ambiguity != nullptr ? ambiguity : &unasked);
+  return {};
 }
 
 }  // namespace wireskin::network

@@ -2,18 +2,19 @@
 // components of a network brought together.
 //
 // In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same
-// network with patches of several loops and with inner segments and points. Two rules, in this
-// order; where neither applies every cycle stays a patch.
+// network with patches of several loops and with inner segments and points. Three rules, in this
+// order; where none applies every cycle stays a patch.
 // 1. A component enclosed by a patch in its plane (network/enclosure.h) joins it by the cycle that
 // runs clockwise there and faces the same way. A ring of boundary curves becomes a hole; what
 // bounds nothing (dangling curves, points) holds the patch's inside.
 // 2. Other loops face each other: where the conormals, which point into the patch along the
 // surface, lead from either loop to the other, and a band between the two has less area than
-// closing both alone would take. A loop closed alone costs the area of the spherical cap that
-// leaves it along its conormals, 2 A / (1 + m) for a circle of area A and the mean cosine m between
-// its normals and its axis; times (2 / (1 + m))^2, because a cap that leaves so much to guess is
-// worth a longer band. Nearest pairs join first, never two loops of the same component. O(n log n)
-// and the pairs of loops of rule 2 that are near each other.
+// closing both alone would take: the spherical cap that leaves a loop along its conormals, 2 A / (1
+// + m) for a circle of area A and the mean cosine m between its normals and its axis, times (2 / (1
+// + m))^2. Nearest pairs join first, never two loops of the same component.
+// 3. What is left and lies on the guessed surface of a patch (network/nearest_patch.h) joins it as
+// by rule 1: pieces that bound nothing, loops that run clockwise, rings. A piece also says which
+// side of a ring has the surface. O(n log n) and the pairs that are near each other.
 #pragma once
 
 #include "network/enclosure.h"

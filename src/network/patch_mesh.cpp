@@ -2,18 +2,14 @@
 
 #include "base/sort.h"
 #include "mesh/check.h"
-#include "mesh/dome.h"
-#include "mesh/loop_refine.h"
+#include "mesh/inlay.h"
 #include "network/border_check.h"
+#include "network/patch_in_space.h"
 #include "network/plane.h"
 #include "num/minmax.h"
 #include "planar/polygon_mesh.h"
 
 namespace wireskin::network {
-
-// Where the normals agree less with the axis of the border, what spreads linearly from it is flat:
-// the patch starts raised along them.
-static constexpr double k_least_closing = 0.3;
 
 namespace {
 
@@ -46,16 +42,15 @@ struct PatchScratch {
   Array<uint32_t> local;         // of each curve vertex, k_none between patches
   Array<uint32_t> vertex;        // of each local one the curve vertex
   Array<uint32_t> loop;          // local, in the order of the border
-  Array<uint32_t> inner_edge;    // two local ones each, the lesser first
+  Array<uint32_t> inner_edge;    // two local ones each
   Array<Chord> curve_edge;       // local, a < b, sorted: loops' and inner edges
   uint32_t isolated = 0;         // so many of the last local vertices are points
   Array<Vec3> position, normal;  // of the local vertices
   Array<Vec2> flat;
   planar::PolygonMesh planar;
-  mesh::LoopMesh spatial;
+  SpaceMesh spatial;
   Array<Vec3> place;
   Array<Vec3> inner;
-  bool raised = false;
 
   explicit PatchScratch(Context& context)
       : border(context),
@@ -188,7 +183,7 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   }
   for (const Vec3& p : scratch.inner) {
     TRY(mesh->start.push(p));
-    TRY(mesh->placed.push(scratch.raised));
+    TRY(mesh->placed.push(scratch.spatial.raised));
   }
   const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
   if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
@@ -266,54 +261,52 @@ static Status mesh_in_plane(const Plane& plane, double spacing, double least_fac
   return {};
 }
 
-// Whether some triangle is so thin that the systems to come would be singular.
-static bool has_needles(Span<const Vec3> position, Span<const uint32_t> triangle) {
-  constexpr double k_needle = 1e-5;
-  for (size_t t = 0; t < triangle.size(); t += 3) {
-    const Vec3 a = position[triangle[t + 1]] - position[triangle[t]];
-    const Vec3 b = position[triangle[t + 2]] - position[triangle[t]], c = b - a;
-    if (!(length(cross(a, b)) > k_needle * (dot(a, a) + dot(b, b) + dot(c, c)))) return true;
-  }
-  return false;
-}
-
-// Raises the mesh of scratch->spatial from its border along the normals, refines it where that
-// stretched it, and raises it again. It stays as it was where this makes needles of triangles.
-static Status raise_patch(const mesh::Loops& loops, double spacing, PatchScratch* scratch) {
-  constexpr int k_rounds = 4;
+// Lets the mesh in space pass through the curves and points inside the patch.
+static Status inlay_patch(double spacing, PatchScratch* scratch) {
   Context& context = scratch->vertex.context();
-  Array<Vec3> place(context);
-  Array<uint32_t> triangle(context);
-  TRY(place.copy(scratch->place.span()));
-  TRY(triangle.copy(scratch->spatial.triangle.span()));
-  for (int round = 0; round < k_rounds; ++round) {
-    if (round > 0) TRY(mesh::refine_loops(context, spacing, loops.start, &place, &triangle));
-    if (has_needles(place.span(), triangle.span())) return {};
-    const Status raised = mesh::raise_dome(context, loops, triangle.span(), place.span());
-    if (raised.code == Code::not_positive_definite) return {};
-    TRY(raised);
-  }
-  if (has_needles(place.span(), triangle.span())) return {};
-  scratch->place = static_cast<Array<Vec3>&&>(place);
-  scratch->spatial.triangle = static_cast<Array<uint32_t>&&>(triangle);
-  return {};
-}
-
-static Status mesh_in_space(double spacing, PatchScratch* scratch) {
-  Context& context = scratch->vertex.context();
-  const size_t n = scratch->vertex.size();
-  if (n != scratch->border.size()) {
-    return fail(Code::patch_folded,
-                "no plane shows the patch without folds, and curves lie inside it");
-  }
-  const mesh::Loops loops = {scratch->border.start.span(), scratch->position.span(),
-                             scratch->normal.span()};
-  TRY(mesh::mesh_loops(context, loops, spacing, &scratch->spatial));
-  TRY(scratch->place.copy(scratch->position.span()));
-  for (const Vec3& p : scratch->spatial.inner) TRY(scratch->place.push(p));
   const Border& border = scratch->border;
-  scratch->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
-  if (scratch->raised) TRY(raise_patch(loops, spacing, scratch));
+  const uint32_t rim = border.size(), n = static_cast<uint32_t>(scratch->vertex.size());
+  Array<Chord> lines(context);
+  Array<uint32_t> edges(context);
+  for (size_t e = 0; e < scratch->inner_edge.size(); e += 2) {
+    const uint32_t a = scratch->inner_edge[e], b = scratch->inner_edge[e + 1];
+    TRY(lines.push(a < b ? Chord{a, b, k_none} : Chord{b, a, k_none}));
+  }
+  sort(lines.span(), before);
+  for (const Chord& line : lines) {
+    TRY(edges.push(line.a));
+    TRY(edges.push(line.b));
+  }
+  const mesh::Inlay inlay = {scratch->position.span().part(rim, n - rim), edges.span()};
+  TRY(mesh::inlay_curves(context, border.start.span(), inlay, spacing, &scratch->spatial.position,
+                         &scratch->spatial.triangle));
+  if (has_needles(scratch->spatial)) {
+    return fail(Code::patch_folded, "curves inside the patch lie too near each other");
+  }
+  if (!scratch->spatial.raised) return {};
+  return raise_again(border, {n, edges.span()}, spacing, &scratch->spatial);
+}
+
+// Names the curve of the local vertex that a failure speaks of.
+static Status at_local_vertex(Status status, const CurveVertices& vertices,
+                              const PatchScratch& scratch) {
+  const uint32_t v = status.place.vertex;
+  status.place.vertex = k_none;
+  if (v < scratch.vertex.size()) status.place.curve = vertices.curve[scratch.vertex[v]];
+  return status;
+}
+
+static Status mesh_in_space(const CurveVertices& vertices, double spacing, PatchScratch* scratch) {
+  const Border& border = scratch->border;
+  const uint32_t n = static_cast<uint32_t>(scratch->vertex.size()), rim = border.size();
+  for (uint32_t i = 0; i < rim; ++i) {
+    if (scratch->loop[i] == i) continue;
+    return fail(Code::patch_folded,
+                "no plane shows the patch without folds, and its border passes a point twice");
+  }
+  TRY(mesh_border_in_space(border, spacing, &scratch->spatial));
+  if (n != rim) TRY(at_local_vertex(inlay_patch(spacing, scratch), vertices, *scratch));
+  TRY(scratch->place.copy(scratch->spatial.position.span()));
   return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }
 
@@ -344,7 +337,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   const Border& border = scratch->border;
   const double spacing = border_length(border) / static_cast<double>(border.size());
   Plane plane;
-  scratch->raised = false;
+  scratch->spatial.raised = false;
   Status status = fit_plane(border, &plane);
   if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
   if (status.ok()) status = check_areas(*scratch, scratch->planar.triangles.span());
@@ -354,7 +347,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   }
   if (!may_be_meshed_otherwise(status)) return status;
   TRY(check_border(border));
-  TRY(mesh_in_space(spacing, scratch));
+  TRY(mesh_in_space(vertices, spacing, scratch));
   TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
@@ -442,7 +435,7 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
     const Status status =
         at_patch(mesh_patch(network, vertices, least_facing, p, &scratch, &builder), network, p);
     TRY(mesh->status.push(status));
-    TRY(builder.raised.push(scratch.raised));
+    TRY(builder.raised.push(scratch.spatial.raised));
     if (!status.ok() && !(partial && may_be_left_out(status))) return status;
     if (!status.ok()) TRY(mesh->way.push(PatchWay::plane));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));

@@ -270,3 +270,152 @@ TEST_CASE("partial: patches that fail are left out and listed") {
   all.lines.push_back(eight);
   CHECK(Built(all, true).status == WSK_ERROR_PATCH_FOLDED);
 }
+
+namespace {
+
+// Along t in [0, 1], normals away from the z axis.
+void add_on_tube(Net* net, bool closed, bool boundary, double (*angle)(double),
+                 double (*height)(double)) {
+  Line line;
+  line.closed = closed;
+  line.boundary = boundary;
+  for (int k = 0; k < (closed ? 40 : 41); ++k) {
+    const double a = angle(k / 40.0), z = height(k / 40.0);
+    line.position.insert(line.position.end(), {std::cos(a), std::sin(a), z});
+    line.normal.insert(line.normal.end(), {std::cos(a), std::sin(a), 0.0});
+    line.node.push_back(WSK_NONE);
+  }
+  net->lines.push_back(line);
+}
+
+Net tube(double height) {
+  Net net;
+  net.circle(0, 0, 0, 1, true, true);
+  net.circle(0, 0, height, 1, true, true);
+  return net;
+}
+
+// How far the surface is from the cylinder of radius 1 about the z axis.
+double off_the_tube(const Built& b) {
+  double worst = 0.0;
+  for (uint32_t v = 0; v < b.view.vertex_count; ++v) {
+    const double* p = &b.view.positions[3 * v];
+    worst = std::fmax(worst, std::fabs(std::hypot(p[0], p[1]) - 1.0));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("no plane: curves and points on a tube hold it where they lie") {
+  Net net = tube(2.0);
+  add_on_tube(
+      &net, false, false, [](double t) { return 3 * t; }, [](double t) { return 0.4 + 0.9 * t; });
+  add_on_tube(
+      &net, false, false, [](double t) { return 4 + t; }, [](double) { return 0.7; });
+  const double bump = 1.1;
+  net.point(bump * std::cos(5.5), bump * std::sin(5.5), 1.2, false);
+  net.point(std::cos(3.6), std::sin(3.6), 1.5, false);
+  const Built b(net);
+  REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+  CHECK(b.report.patches == 1);
+  CHECK(b.report.minimal_area_patches == 1);
+  CHECK(b.report.guarded_patches == 0);
+  CHECK(b.report.euler_characteristic == 0);
+  CHECK(b.report.boundary_loops == 2);
+  CHECK(b.report.constraint_distance_max < 1e-2);
+  CHECK(b.passes(bump * std::cos(5.5), bump * std::sin(5.5), 1.2, 4));
+  CHECK(b.passes(std::cos(3.6), std::sin(3.6), 1.5, 5));
+  CHECK(off_the_tube(b) < 0.13);
+  CHECK(off_the_tube(b) > 0.09);
+}
+
+TEST_CASE("no plane: a closed curve on a tube is a hole where it is tagged, else a patch") {
+  for (const bool boundary : {true, false}) {
+    CAPTURE(boundary);
+    Net net = tube(2.0);
+    add_on_tube(
+        &net, true, boundary, [](double t) { return 0.6 * std::cos(k_turn * t); },
+        [](double t) { return 1.0 + 0.5 * std::sin(k_turn * t); });
+    const Built b(net);
+    REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+    CHECK(b.report.patches == (boundary ? 1 : 2));
+    CHECK(b.report.boundary_loops == (boundary ? 3 : 2));
+    CHECK(b.report.euler_characteristic == (boundary ? -1 : 0));
+    CHECK(b.report.components == 1);
+    CHECK(off_the_tube(b) < 1.5e-2);
+  }
+}
+
+TEST_CASE("no plane: a point tells on which side of a great circle the surface lies") {
+  for (const double side : {1.0, -1.0}) {
+    CAPTURE(side);
+    Net net;
+    net.circle(0, 0, 0, 1, true, true);
+    CHECK(Built(net).status == WSK_ERROR_OPEN_NETWORK);
+    net.point(0, 0, side, false);
+    const Built b(net);
+    REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+    CHECK(b.report.euler_characteristic == 1);
+    CHECK(b.passes(0, 0, side, 1));
+    for (uint32_t v = 0; v < b.view.vertex_count; ++v) {
+      const double* p = &b.view.positions[3 * v];
+      CHECK(side * p[2] > -1e-9);
+      CHECK(std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) == doctest::Approx(1).epsilon(0.02));
+    }
+  }
+}
+
+TEST_CASE("no plane: points on both halves of a sphere of one circle") {
+  Net net;
+  net.circle(0, 0, 0, 1, false, true);
+  net.point(0, 0, 1, false);
+  net.point(0, 0, -1, false);
+  net.point(0.6, 0, 0.8, false);
+  const Built b(net);
+  REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+  CHECK(b.report.patches == 2);
+  CHECK(b.report.euler_characteristic == 2);
+  CHECK(b.passes(0, 0, 1, 1));
+  CHECK(b.passes(0, 0, -1, 2));
+  CHECK(b.passes(0.6, 0, 0.8, 3));
+}
+
+TEST_CASE("no plane: curves that cross without a node are named") {
+  Net net = tube(2.0);
+  add_on_tube(
+      &net, false, false, [](double t) { return 2 * t; }, [](double t) { return 0.5 + t; });
+  add_on_tube(
+      &net, false, false, [](double t) { return 2 * t; }, [](double t) { return 1.4 - t; });
+  const Built b(net);
+  CHECK(b.status == WSK_ERROR_PATCH_FOLDED);
+  CHECK((b.report.curve == 2 || b.report.curve == 3));
+}
+
+TEST_CASE("rings of one axis become bands between neighbours") {
+  struct Ring {
+    double height, radius;
+  };
+  const std::vector<std::vector<Ring>> stacks = {
+      {{0, 1}, {1, 1}, {2, 1}},
+      {{0, 1}, {0.8, 1.3}, {1.7, 0.6}, {2.2, 0.6}},
+      {{0, 0.5}, {0.5, 1}, {1, 0.7}, {2.2, 1.2}, {3, 1}},
+      {{0, 1}, {7.9, 1}},  // boundary curves cannot be closed by themselves
+  };
+  for (const std::vector<Ring>& stack : stacks) {
+    for (const bool open : {true, false}) {
+      if (!open && stack.size() == 2) continue;
+      Net net;
+      for (size_t i = 0; i < stack.size(); ++i) {
+        const bool end = i == 0 || i + 1 == stack.size();
+        net.circle(0, 0, stack[i].height, stack[i].radius, open && end, true);
+      }
+      const Built b(net);
+      REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+      CHECK(b.report.patches == stack.size() + (open ? -1 : 1));
+      CHECK(b.report.components == 1);
+      CHECK(b.report.euler_characteristic == (open ? 0 : 2));
+      CHECK(b.report.boundary_loops == (open ? 2 : 0));
+    }
+  }
+}

@@ -1,0 +1,95 @@
+#include "network/patch_in_space.h"
+
+#include "mesh/dome.h"
+#include "num/minmax.h"
+
+namespace wireskin::network {
+
+// Where the normals agree less with the axis of the border, what spreads linearly from it is flat:
+// the patch starts raised along them.
+static constexpr double k_least_closing = 0.3;
+// The coarse mesh has edges so much longer than wished, but about so many along the border's
+// length.
+static constexpr double k_coarser = 4.0, k_edges_of_coarse_border = 60.0;
+
+bool has_needles(const SpaceMesh& mesh) {
+  constexpr double k_needle = 1e-5;
+  const Span<const Vec3> position = mesh.position.span();
+  for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
+    const Vec3 a = position[mesh.triangle[t + 1]] - position[mesh.triangle[t]];
+    const Vec3 b = position[mesh.triangle[t + 2]] - position[mesh.triangle[t]], c = b - a;
+    if (!(length(cross(a, b)) > k_needle * (dot(a, a) + dot(b, b) + dot(c, c)))) return true;
+  }
+  return false;
+}
+
+static mesh::Loops loops_of(const Border& border) {
+  return {border.start.span(), border.position.span(), border.normal.span()};
+}
+
+// One round: `*sound` says whether it left the mesh fit for the next one.
+static Status raise_once(const Border& border, uint32_t held, SpaceMesh* mesh, bool* sound) {
+  *sound = false;
+  if (has_needles(*mesh)) return {};
+  const Status raised = mesh::raise_dome(mesh->position.context(), loops_of(border), held,
+                                         mesh->triangle.span(), mesh->position.span());
+  if (raised.code == Code::not_positive_definite) return {};
+  TRY(raised);
+  *sound = !has_needles(*mesh);
+  return {};
+}
+
+static Status refine_and_raise(const Border& border, const mesh::HeldCurves& held, double spacing,
+                               int rounds, SpaceMesh* mesh, bool* sound) {
+  Context& context = mesh->position.context();
+  for (int round = 0; *sound && round < rounds; ++round) {
+    TRY(mesh::refine_loops(context, spacing, border.start.span(), held, &mesh->position,
+                           &mesh->triangle));
+    TRY(raise_once(border, held.vertices, mesh, sound));
+  }
+  return {};
+}
+
+static Status take_loop_mesh(const Border& border, double spacing, SpaceMesh* mesh) {
+  Context& context = mesh->position.context();
+  mesh::LoopMesh flat(context);
+  TRY(mesh::mesh_loops(context, loops_of(border), spacing, &flat));
+  TRY(mesh->position.copy(border.position.span()));
+  for (const Vec3& p : flat.inner) TRY(mesh->position.push(p));
+  mesh->triangle = static_cast<Array<uint32_t>&&>(flat.triangle);
+  return {};
+}
+
+Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh) {
+  constexpr int k_coarse_rounds = 2, k_fine_rounds = 1;
+  mesh->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
+  if (mesh->raised) {
+    const double coarse = larger(
+        spacing, smaller(k_coarser * spacing, border_length(border) / k_edges_of_coarse_border));
+    const mesh::HeldCurves held = {border.size(), {}};
+    bool sound = true;
+    TRY(take_loop_mesh(border, coarse, mesh));
+    TRY(raise_once(border, border.size(), mesh, &sound));
+    TRY(refine_and_raise(border, held, coarse, k_coarse_rounds, mesh, &sound));
+    TRY(refine_and_raise(border, held, spacing, k_fine_rounds, mesh, &sound));
+    if (sound) return {};
+  }
+  return take_loop_mesh(border, spacing, mesh);
+}
+
+Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
+                   SpaceMesh* mesh) {
+  constexpr int k_rounds = 2;
+  SpaceMesh raised(mesh->position.context());
+  TRY(raised.position.copy(mesh->position.span()));
+  TRY(raised.triangle.copy(mesh->triangle.span()));
+  bool sound = true;
+  TRY(raise_once(border, held.vertices, &raised, &sound));
+  TRY(refine_and_raise(border, held, spacing, k_rounds, &raised, &sound));
+  if (!sound) return {};
+  mesh->position = static_cast<Array<Vec3>&&>(raised.position);
+  mesh->triangle = static_cast<Array<uint32_t>&&>(raised.triangle);
+  return {};
+}
+
+}  // namespace wireskin::network
