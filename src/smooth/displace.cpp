@@ -296,12 +296,13 @@ Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const
                                              bool* solved) {
   // A factorisation costs as much as some ten to sixty solves, so what is nearly good is accepted.
   constexpr double k_good_enough = 1e-9;
-  const sparse::CgOptions options = {1e-10, 40};
+  const double tolerance = unknowns_ <= 60000 ? 1e-12 : unknowns_ <= 600000 ? 1e-11 : 1e-10;
+  const sparse::CgOptions options = {tolerance, 40};
   sparse::CgResult result;
   NormalEquations equations(context_, rows, weight);
   TRY(equations.image.resize(rows.rows));
   TRY(context_.enter(Stage::solve));
-  for (double& x : solution) x = 0.0;
+  for (size_t i = 0; i < solution.size(); ++i) solution[i] = start_.empty() ? 0.0 : start_[i];
   const Status status = sparse::conjugate_gradients(context_, {apply_normal_equations, &equations},
                                                     sparse::inverse_operator(factor_), rhs,
                                                     solution, options, &result);
@@ -395,8 +396,10 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
     TRY(solve_by_old_factor(rows, weight.span(), rhs.span(), solution.span(), &solved));
   }
   if (!solved) TRY(solve_by_new_factor(input, rows, weight.span(), rhs.span(), solution.span()));
+  TRY(start_.copy(solution.span()));
   for (uint32_t v = 0; v < n; ++v) {
     step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
+    if (!input.held[v]) start_[displacement_[v]] = 0.0;
   }
   return {};
 }

@@ -44,16 +44,21 @@ struct DisplaceInput {
 };
 
 // Solves one step after the other. The systems of later steps differ little from the first, so its
-// factor preconditions conjugate gradients for them; only where these are slow is there a new one.
+// factor preconditions conjugate gradients for them, from the last step's h; only where these are
+// slow is there a new one.
 class MinimumVariation {
  public:
   explicit MinimumVariation(Context& context)
-      : context_(context), factor_(context), displacement_(context), curvature_(context) {}
+      : context_(context),
+        factor_(context),
+        displacement_(context),
+        curvature_(context),
+        start_(context) {}
 
   // `normal`: out, the directions; `step`: out, u of every vertex, zero where held.
   Status solve(const DisplaceInput& input, Span<Vec3> normal, Span<double> step);
 
-  double residual() const { return residual_; }  // of the last solve, relative
+  double residual() const { return residual_; }  // of the last solve, |b - A x| / |b|
   uint32_t factorisations() const { return factorisations_; }
   uint32_t iterations() const { return iterations_; }  // of conjugate gradients, all steps together
 
@@ -74,6 +79,7 @@ class MinimumVariation {
   sparse::Cholesky factor_;
   Array<uint32_t> displacement_;  // number of each vertex's unknown u, k_none where held
   Array<uint32_t> curvature_;     // and of its unknown h, next to it
+  Array<double> start_;           // the last solution with u = 0, or empty
   uint32_t unknowns_ = 0;
   uint32_t factorisations_ = 0;
   uint32_t iterations_ = 0;

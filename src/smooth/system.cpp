@@ -6,23 +6,30 @@
 
 namespace wireskin::smooth {
 
-// y = A x for a symmetric matrix with both halves stored: column j is row j. Where most of x is
-// zero, as on meshes of which only the curves are known, the columns of the others are spared.
-static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+// Whether most of x is zero, as on meshes of which only the curves are known.
+static bool is_mostly_zero(Span<const Vec3> x) {
   size_t zeros = 0;
   for (const Vec3& v : x) zeros += v == Vec3{};
-  if (4 * zeros > 3 * x.size()) {
-    for (Vec3& v : y) v = Vec3{};
-    for (uint32_t j = 0; j < a.cols; ++j) {
-      if (x[j] == Vec3{}) continue;
-      for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
-    }
+  return 4 * zeros > 3 * x.size();
+}
+
+// Row j of A x for a symmetric matrix with both halves stored: column j is row j.
+static Vec3 multiply_row(const sparse::Csc& a, uint32_t j, Span<const Vec3> x) {
+  Vec3 sum;
+  for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
+  return sum;
+}
+
+// y = A x; columns that meet zeros are spared where there are many.
+static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+  if (!is_mostly_zero(x)) {
+    for (uint32_t j = 0; j < a.cols; ++j) y[j] = multiply_row(a, j, x);
     return;
   }
+  for (Vec3& v : y) v = Vec3{};
   for (uint32_t j = 0; j < a.cols; ++j) {
-    Vec3 sum;
-    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
-    y[j] = sum;
+    if (x[j] == Vec3{}) continue;
+    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
   }
 }
 
@@ -159,7 +166,7 @@ Status System::iterate(size_t columns) {
   return {};
 }
 
-Status System::factor(Span<const double> weight, Span<const double> penalty) {
+Status System::factor(Span<const double> weight, Span<const double> penalty, bool last) {
   Context& context = weight_.context();
   TRY(context.enter(Stage::operators));
   TRY(weight_.copy(weight));
@@ -195,6 +202,10 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
   matrix_.row.free();
   Status factored = factor_.factor(matrix_);
   matrix_.value.free();
+  if (last) {
+    factor_.end_factoring();
+    analysed_ = false;
+  }
   factored.place = {};  // a column of ours means nothing to the caller
   return factored;
 }
@@ -205,21 +216,23 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
 Status System::find_gradients(Span<const Field3> fields, double* squares) {
   Context& context = weight_.context();
   const size_t columns = 3 * fields.size(), n = unknown_.size();
-  Array<Vec3> a(context), b(context);
-  TRY(a.resize(n));
-  TRY(b.resize(n));
+  Array<Vec3> image(context), spare(context);
+  TRY(image.resize(n));
+  if (order_ == Order::three) TRY(spare.resize(n));
   for (size_t f = 0; f < fields.size(); ++f) {
     const Field3& field = fields[f];
-    multiply_vectors(*laplacian_, field.value, a.span());
+    Span<const Vec3> x = field.value;  // the last factor L is applied row by row below
     for (int k = 1; k < static_cast<int>(order_); ++k) {
+      const Span<Vec3> y = k == 1 ? image.span() : spare.span();
       const bool aims = k == 1 && !field.target.empty();
-      for (size_t v = 0; v < n; ++v) b[v] = weight_[v] * (aims ? field.target[v] - a[v] : -a[v]);
-      multiply_vectors(*laplacian_, b.span(), a.span());
+      multiply_vectors(*laplacian_, x, y);
+      for (size_t v = 0; v < n; ++v) y[v] = weight_[v] * (aims ? field.target[v] - y[v] : -y[v]);
+      x = y;
     }
     Vec3 sum;
-    for (size_t v = 0; v < n; ++v) {
+    for (uint32_t v = 0; v < n; ++v) {
       if (unknown_[v] == k_none) continue;
-      Vec3 g = a[v];
+      Vec3 g = multiply_row(*laplacian_, v, x);
       if (!penalty_.empty() && penalty_[v] != 0.0) {
         g += penalty_[v] * (field.anchor[v] - field.value[v]);
       }

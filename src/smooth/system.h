@@ -51,8 +51,8 @@ class System {
   Status prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
                  const Places& places = {});
   // Assembles and factors with these row weights, and a penalty for each vertex (empty: none); may
-  // be called again.
-  Status factor(Span<const double> weight, Span<const double> penalty);
+  // be called again unless this is the `last` time, which saves memory.
+  Status factor(Span<const double> weight, Span<const double> penalty, bool last = false);
   // `residual`: the greatest relative residual of all columns, after one step of refinement where
   // needed.
   Status solve(Span<const Field3> fields, double* residual);
