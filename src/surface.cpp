@@ -171,7 +171,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
                        patches.start.span(), patches.placed.span(),  inner_edge.span(),
-                       &patches.shape};
+                       &patches.shape,       &patches.start};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,

@@ -71,6 +71,10 @@ T* partition(T* first, T* last, const Less& less) {
 template <typename T, typename Less>
 void sort(Span<T> values, const Less& less) {
   constexpr ptrdiff_t k_short = 16;
+  if (values.end() - values.begin() <= k_short) {
+    insertion_sort(values.begin(), values.end(), less);
+    return;
+  }
   struct Run {
     T* first;
     T* last;

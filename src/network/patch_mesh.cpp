@@ -20,17 +20,23 @@ struct Chord {
   uint32_t patch;
 };
 
-// What is gathered over all patches: corner[3 t + k] is corner k of triangle t, in space or in its
-// patch's plane (z = 0; the same vertex then has another place in each patch).
+// The corners of a triangle, in space or in its patch's plane (z = 0; the same vertex then has
+// another place in each patch).
+struct Corners {
+  uint32_t triangle;
+  Vec3 at[3];
+};
+
+// What is gathered over all patches; `cornered`: the triangles that have chords, ascending.
 struct Builder {
   PatchMesh* mesh;
-  Array<Vec3> corner;
+  Array<Corners> cornered;
   Array<Chord> chord;
   Array<uint32_t> patch_start;  // first triangle of each patch, before chords are split
   Array<uint8_t> raised;        // of each patch
 
   explicit Builder(Context& context, PatchMesh* result)
-      : mesh(result), corner(context), chord(context), patch_start(context), raised(context) {}
+      : mesh(result), cornered(context), chord(context), patch_start(context), raised(context) {}
 };
 
 // Memory for one patch, reused: the border, the vertices of the patch that are on curves (those of
@@ -164,26 +170,57 @@ static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
   return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
 }
 
+// Room for `more` elements; grows as push() does.
+template <typename T>
+static Status reserve_more(Array<T>* array, size_t more) {
+  const size_t room = array->capacity_bytes() / sizeof(T), needed = array->size() + more;
+  if (needed <= room) return {};
+  return array->reserve(needed < room + room / 2 ? room + room / 2 : needed);
+}
+
+// Notes the chords of triangle `t`, whose vertices among the patch's are `corner`, and its corners
+// if it has any.
+static Status note_chords(const PatchScratch& scratch, const uint32_t* corner, uint32_t t,
+                          uint32_t patch, Builder* builder) {
+  bool any = false;
+  const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
+  for (int k = 0; k < 3; ++k) {
+    const uint32_t a = corner[k], b = corner[(k + 1) % 3];
+    if (a >= n || b >= n || is_curve_edge(scratch, a, b)) continue;
+    any = true;
+    // Each edge inside is met once in each direction; the ascending one is noted.
+    const uint32_t from = scratch.vertex[a], to = scratch.vertex[b];
+    if (from < to) TRY(builder->chord.push({from, to, patch}));
+  }
+  if (!any) return {};
+  const Span<const Vec3> place = scratch.place.span();
+  return builder->cornered.push({t, {place[corner[0]], place[corner[1]], place[corner[2]]}});
+}
+
 static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
                            uint32_t patch, Builder* builder) {
   PatchMesh* mesh = builder->mesh;
   const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
-  const auto global = [&](uint32_t v) {
-    return v < n ? scratch.vertex[v] : mesh->vertices + (v - n);
-  };
-  for (size_t h = 0; h < triangle.size(); ++h) {
-    const uint32_t a = triangle[h], b = triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
-    TRY(mesh->triangle.push(global(a)));
-    TRY(builder->corner.push(scratch.place[a]));
-    if (h % 3 == 0) TRY(mesh->patch.push(patch));
-    // Each edge inside is met once in each direction; the ascending one is noted.
-    if (a < n && b < n && global(a) < global(b) && !is_curve_edge(scratch, a, b)) {
-      TRY(builder->chord.push({global(a), global(b), patch}));
-    }
+  const size_t first = mesh->patch.size(), more = triangle.size() / 3;
+  TRY(reserve_more(&mesh->triangle, triangle.size()));
+  TRY(reserve_more(&mesh->patch, more));
+  TRY(reserve_more(&mesh->shape, more));
+  TRY(reserve_more(&mesh->start, scratch.inner.size()));
+  TRY(reserve_more(&mesh->placed, scratch.inner.size()));
+  for (size_t t = 0; t < more; ++t) {
+    const uint32_t* corner = &triangle[3 * t];
+    const auto global = [&](uint32_t v) {
+      return v < n ? scratch.vertex[v] : mesh->vertices + (v - n);
+    };
+    for (int k = 0; k < 3; ++k) mesh->triangle.push_reserved(global(corner[k]));
+    mesh->patch.push_reserved(patch);
+    mesh->shape.push_reserved(mesh::triangle_shape(
+        scratch.place[corner[0]], scratch.place[corner[1]], scratch.place[corner[2]]));
+    TRY(note_chords(scratch, corner, static_cast<uint32_t>(first + t), patch, builder));
   }
   for (const Vec3& p : scratch.inner) {
-    TRY(mesh->start.push(p));
-    TRY(mesh->placed.push(scratch.spatial.raised));
+    mesh->start.push_reserved(p);
+    mesh->placed.push_reserved(scratch.spatial.raised);
   }
   const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
   if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
@@ -353,21 +390,37 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
 }
 
+static Corners* corners_of(uint32_t triangle, Builder* builder) {
+  size_t first = 0, end = builder->cornered.size();
+  while (first + 1 < end) {
+    const size_t middle = first + (end - first) / 2;
+    (builder->cornered[middle].triangle <= triangle ? first : end) = middle;
+  }
+  WIRESKIN_ASSERT(first < end && builder->cornered[first].triangle == triangle);
+  return &builder->cornered[first];
+}
+
+static mesh::TriangleShape shape_of(const Corners& corners) {
+  return mesh::triangle_shape(corners.at[0], corners.at[1], corners.at[2]);
+}
+
 // Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the
 // triangle keeps one half, a new triangle takes the other.
 static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
   PatchMesh* mesh = builder->mesh;
   const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
-  const Vec3 middle = 0.5 * (builder->corner[h] + builder->corner[next]);
+  Corners* old = corners_of(h / 3, builder);
+  const Vec3 middle = 0.5 * (old->at[h % 3] + old->at[next % 3]);
   const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
-  const Vec3 corner[3] = {middle, builder->corner[next], builder->corner[previous]};
-  for (int k = 0; k < 3; ++k) {
-    TRY(mesh->triangle.push(vertex[k]));
-    TRY(builder->corner.push(corner[k]));
-  }
+  const Corners fresh = {static_cast<uint32_t>(mesh->patch.size()),
+                         {middle, old->at[next % 3], old->at[previous % 3]}};
   mesh->triangle[next] = m;
-  builder->corner[next] = middle;
-  return mesh->patch.push(mesh->patch[h / 3]);
+  old->at[next % 3] = middle;
+  mesh->shape[h / 3] = shape_of(*old);
+  for (uint32_t v : vertex) TRY(mesh->triangle.push(v));
+  TRY(mesh->shape.push(shape_of(fresh)));
+  TRY(mesh->patch.push(mesh->patch[h / 3]));
+  return builder->cornered.push(fresh);
 }
 
 // Splits the triangles [first, end) of the chord's patch that have the chord.
@@ -442,13 +495,7 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
   if (mesh->patch.empty() && !mesh->status.empty()) return mesh->status[0];
-  TRY(split_shared_chords(network, vertices, &builder));
-  TRY(mesh->shape.resize(mesh->patch.size()));
-  for (size_t t = 0; t < mesh->shape.size(); ++t) {
-    const Vec3* corner = &builder.corner[3 * t];
-    mesh->shape[t] = mesh::triangle_shape(corner[0], corner[1], corner[2]);
-  }
-  return {};
+  return split_shared_chords(network, vertices, &builder);
 }
 
 }  // namespace wireskin::network

@@ -11,6 +11,13 @@ namespace wireskin::smooth {
 // The weight of the pull of h towards zero at bare vertices.
 static constexpr double k_bare_pull = 1e-6;
 
+// Row weights and right-hand side of the least squares problem.
+struct MinimumVariation::LeastSquares {
+  const sparse::Csc& rows;
+  Span<const double> weight;
+  Span<const double> rhs;
+};
+
 namespace {
 
 // The mesh cut open along the curves: vertices on curves have a copy in every patch.
@@ -291,24 +298,34 @@ static Status apply_normal_equations(void* self, Span<const double> x, Span<doub
   return equations.image.context().checkpoint();
 }
 
-Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
-                                             Span<const double> rhs, Span<double> solution,
+// Conjugate gradients from the last step's h, until the residual is what the size allows. What
+// the iteration cannot do shows in the residual.
+Status MinimumVariation::iterate(const LeastSquares& system,
+                                 const sparse::LinearOperator& preconditioner, uint32_t most,
+                                 Span<double> solution, uint32_t* iterations) {
+  const double tolerance = unknowns_ <= 60000 ? 1e-12 : unknowns_ <= 600000 ? 1e-11 : 1e-10;
+  sparse::CgResult result;
+  NormalEquations equations(context_, system.rows, system.weight);
+  TRY(equations.image.resize(system.rows.rows));
+  TRY(context_.enter(Stage::solve));
+  for (size_t i = 0; i < solution.size(); ++i) solution[i] = start_.empty() ? 0.0 : start_[i];
+  const Status status =
+      sparse::conjugate_gradients(context_, {apply_normal_equations, &equations}, preconditioner,
+                                  system.rhs, solution, {tolerance, most}, &result);
+  *iterations = result.iterations;
+  residual_ = result.residual;
+  return status.code == Code::not_positive_definite ? Status{} : status;
+}
+
+Status MinimumVariation::solve_by_old_factor(const LeastSquares& system, Span<double> solution,
                                              bool* solved) {
   // A factorisation costs as much as some ten to sixty solves, so what is nearly good is accepted.
   constexpr double k_good_enough = 1e-9;
-  const sparse::CgOptions options = {1e-10, 40};
-  sparse::CgResult result;
-  NormalEquations equations(context_, rows, weight);
-  TRY(equations.image.resize(rows.rows));
-  TRY(context_.enter(Stage::solve));
-  for (double& x : solution) x = 0.0;
-  const Status status = sparse::conjugate_gradients(context_, {apply_normal_equations, &equations},
-                                                    sparse::inverse_operator(factor_), rhs,
-                                                    solution, options, &result);
-  *solved = status.ok() && result.residual <= k_good_enough;
-  iterations_ += result.iterations;
-  residual_ = result.residual;
-  return status.code == Code::not_positive_definite ? Status{} : status;
+  uint32_t iterations = 0;
+  TRY(iterate(system, sparse::inverse_operator(factor_), 40, solution, &iterations));
+  *solved = residual_ <= k_good_enough;
+  iterations_ += iterations;
+  return {};
 }
 
 // By vertices, so that u and h of a vertex stay together.
@@ -325,16 +342,21 @@ Status MinimumVariation::order_unknowns(const DisplaceInput& input, const sparse
   return sparse::nested_dissection(matrix, {vertex.span(), input.position, patch.span()}, order);
 }
 
-Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const sparse::Csc& rows,
-                                             Span<const double> weight, Span<const double> rhs,
+static Status no_room_for_fairing() {
+  return fail(Code::memory_cap,
+              "the memory cap leaves no room for the factor of the fairing; `stanko` needs less");
+}
+
+Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const LeastSquares& system,
                                              Span<double> solution) {
+  const sparse::Csc& rows = system.rows;
   sparse::Csc transposed(context_), matrix(context_);
   Array<uint32_t> all(context_), order(context_);
   TRY(sparse::transpose(rows, &transposed));
   TRY(all.resize(rows.cols));
   for (uint32_t j = 0; j < rows.cols; ++j) all[j] = j;
-  TRY(sparse::weighted_product(transposed, weight, rows, all.span(), rows.cols, sparse::Part::lower,
-                               &matrix));
+  TRY(sparse::weighted_product(transposed, system.weight, rows, all.span(), rows.cols,
+                               sparse::Part::lower, &matrix));
   transposed.row.free();
   transposed.value.free();
   TRY(context_.enter(Stage::factor));
@@ -342,22 +364,45 @@ Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const s
   TRY(factor_.analyse(matrix, order.span()));
   order.free();
   matrix.row.free();
-  if (factor_.factor_bytes() > context_.room_bytes()) {
-    return fail(Code::memory_cap,
-                "the memory cap leaves no room for the factor of the fairing; `stanko` needs less");
-  }
+  if (factor_.factor_bytes() > context_.room_bytes()) return no_room_for_fairing();
   Status factored = factor_.factor(matrix);
   factored.place = {};  // a column of ours means nothing to the caller
   TRY(factored);
   ++factorisations_;
   bool solved = false;
-  TRY(solve_by_old_factor(rows, weight, rhs, solution, &solved));
+  TRY(solve_by_old_factor(system, solution, &solved));
   // Short of the tolerance the solution may still serve; one that is no number may not.
   if (!solved && !(residual_ < 1.0)) {
     return fail(Code::not_positive_definite,
                 "the linear system cannot be solved in double precision");
   }
   return {};
+}
+
+// The preconditioner is made once, for the mesh of the first step that needs it.
+Status MinimumVariation::solve_by_pairs(const DisplaceInput& input, const sparse::Csc& laplacian,
+                                        Span<const double> area, const LeastSquares& system,
+                                        Span<double> solution) {
+  constexpr uint32_t k_most_iterations = 5000;
+  constexpr double k_good_enough = 1e-6;
+  if (!iterative_) {
+    Array<uint32_t> patch(context_);
+    TRY(patch.assign(input.position.size(), 0));
+    mesh::patches_of_vertices(input.triangle, input.patch, patch.span());
+    const size_t n = input.position.size(), springs = system.rows.rows - 2 * n;
+    TRY(pairs_.build({laplacian,
+                      area,
+                      input.soft.any() ? system.weight.part(springs, n) : Span<const double>{},
+                      displacement_.span(),
+                      curvature_.span(),
+                      input.smoothing_length,
+                      {input.position, patch.span()}}));
+    iterative_ = true;
+  }
+  uint32_t iterations = 0;
+  TRY(iterate(system, pairs_.linear_operator(), k_most_iterations, solution, &iterations));
+  context_.count_iterations(iterations);
+  return residual_ <= k_good_enough ? Status{} : no_room_for_fairing();
 }
 
 Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Span<double> step) {
@@ -390,13 +435,24 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
       rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
     }
   }
+  const LeastSquares system = {rows, weight.span(), rhs.span()};
   bool solved = false;
-  if (factorisations_ > 0) {
-    TRY(solve_by_old_factor(rows, weight.span(), rhs.span(), solution.span(), &solved));
+  if (factorisations_ > 0 && !iterative_) {
+    TRY(solve_by_old_factor(system, solution.span(), &solved));
   }
-  if (!solved) TRY(solve_by_new_factor(input, rows, weight.span(), rhs.span(), solution.span()));
+  if (!solved && !iterative_) {
+    const Status status = solve_by_new_factor(input, system, solution.span());
+    solved = status.ok();
+    if (status.code != Code::memory_cap) TRY(status);
+  }
+  if (!solved) {
+    factor_ = sparse::Cholesky(context_);
+    TRY(solve_by_pairs(input, laplacian, area.span(), system, solution.span()));
+  }
+  TRY(start_.copy(solution.span()));
   for (uint32_t v = 0; v < n; ++v) {
     step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
+    if (!input.held[v]) start_[displacement_[v]] = 0.0;
   }
   return {};
 }

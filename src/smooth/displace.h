@@ -20,8 +20,8 @@
 #pragma once
 
 #include "mesh/operators.h"
+#include "smooth/laplacian_pairs.h"
 #include "smooth/soft.h"
-#include "sparse/cholesky.h"
 
 namespace wireskin::smooth {
 
@@ -44,36 +44,51 @@ struct DisplaceInput {
 };
 
 // Solves one step after the other. The systems of later steps differ little from the first, so its
-// factor preconditions conjugate gradients for them; only where these are slow is there a new one.
+// factor preconditions conjugate gradients for them, from the last step's h; only where these are
+// slow is there a new one. Where the memory cap leaves no room for it, the preconditioner is that
+// of laplacian_pairs.h, with some hundred iterations.
 class MinimumVariation {
  public:
   explicit MinimumVariation(Context& context)
-      : context_(context), factor_(context), displacement_(context), curvature_(context) {}
+      : context_(context),
+        factor_(context),
+        pairs_(context),
+        displacement_(context),
+        curvature_(context),
+        start_(context) {}
 
   // `normal`: out, the directions; `step`: out, u of every vertex, zero where held.
   Status solve(const DisplaceInput& input, Span<Vec3> normal, Span<double> step);
 
-  double residual() const { return residual_; }  // of the last solve, relative
+  double residual() const { return residual_; }  // of the last solve, |b - A x| / |b|
   uint32_t factorisations() const { return factorisations_; }
-  uint32_t iterations() const { return iterations_; }  // of conjugate gradients, all steps together
+  // Of conjugate gradients after a factor, all steps together.
+  uint32_t iterations() const { return iterations_; }
 
  private:
+  struct LeastSquares;
+
   Status number_unknowns(Span<const uint8_t> held);
   Status make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
                    Span<const double> split_area, Span<const uint32_t> origin,
                    const sparse::Csc& laplacian, sparse::Csc* rows) const;
-  Status solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
-                             Span<const double> rhs, Span<double> solution, bool* solved);
+  Status iterate(const LeastSquares& system, const sparse::LinearOperator& preconditioner,
+                 uint32_t most, Span<double> solution, uint32_t* iterations);
+  Status solve_by_old_factor(const LeastSquares& system, Span<double> solution, bool* solved);
   Status order_unknowns(const DisplaceInput& input, const sparse::Csc& matrix,
                         Array<uint32_t>* order) const;
-  Status solve_by_new_factor(const DisplaceInput& input, const sparse::Csc& rows,
-                             Span<const double> weight, Span<const double> rhs,
+  Status solve_by_new_factor(const DisplaceInput& input, const LeastSquares& system,
                              Span<double> solution);
+  Status solve_by_pairs(const DisplaceInput& input, const sparse::Csc& laplacian,
+                        Span<const double> area, const LeastSquares& system, Span<double> solution);
 
   Context& context_;
   sparse::Cholesky factor_;
+  LaplacianPairs pairs_;  // in its place where the memory cap forbids it
+  bool iterative_ = false;
   Array<uint32_t> displacement_;  // number of each vertex's unknown u, k_none where held
   Array<uint32_t> curvature_;     // and of its unknown h, next to it
+  Array<double> start_;           // the last solution with u = 0, or empty
   uint32_t unknowns_ = 0;
   uint32_t factorisations_ = 0;
   uint32_t iterations_ = 0;

@@ -104,14 +104,15 @@ static Status aim_at_conormals(Context& context, const Domain& domain, const Fie
 
 // Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor
 // and one sweep serve both; soft ones pull normals and positions by springs of their own.
-static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
-                        double* residual) {
+static Status propagate(Context& context, const Domain& domain, Method method, const Field& field,
+                        Guided* guided, double* residual) {
   Array<double> penalty(context);
   if (!domain.bare.empty()) {
     TRY(estimate_bare_normals(context, domain, field, guided, residual));
   }
   TRY(penalties(domain, 2, true, &penalty));
-  TRY(guided->system.factor(guided->weight.span(), penalty.span()));
+  const bool last = !domain.soft.any() && method == Method::stanko;
+  TRY(guided->system.factor(guided->weight.span(), penalty.span(), last));
   const Field3 normals = {{}, domain.soft.normal, field.normal};
   if (!domain.soft.any()) {  // the normals along borders are known
     TRY(aim_at_conormals(context, domain, field, guided));
@@ -168,13 +169,14 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
               guided.weight.span());
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
   TRY(guided.system.prepare(laplacian, domain.held, order, domain.places));
+  if (domain.spent_places != nullptr) domain.spent_places->free();
   if (!uses_normals) {
     Array<double> penalty(context);
     TRY(penalties(domain, static_cast<int>(order), false, &penalty));
-    TRY(guided.system.factor(guided.weight.span(), penalty.span()));
+    TRY(guided.system.factor(guided.weight.span(), penalty.span(), true));
     return guided.system.solve({}, domain.soft.position, field.position, residual);
   }
-  TRY(propagate(context, domain, field, &guided, residual));
+  TRY(propagate(context, domain, method, field, &guided, residual));
   TRY(context.enter(Stage::operators));
   TRY(mesh::mean_curvature(field.position, field.normal, domain.triangle, domain.on_border,
                            &guided.curvature));

@@ -44,8 +44,10 @@ struct Domain {
   // Held vertices on open borders whose normal is not known (any value): that of the surface as far
   // as it is found stands for it. Empty: none.
   Span<const uint8_t> bare = {};
-  Places places = {};                           // for the order of elimination
-  Array<mesh::TriangleShape>* spent = nullptr;  // given back once `shape`, its view, has been read
+  Places places = {};  // for the order of elimination
+  // Given back once `shape` and `places.position`, their views, have been read.
+  Array<mesh::TriangleShape>* spent = nullptr;
+  Array<Vec3>* spent_places = nullptr;
 };
 
 // Position and normal of every vertex: in, those of the held ones; out, all.

@@ -1,54 +1,37 @@
 #include "smooth/system.h"
 
+#include "smooth/laplacian_pairs.h"
 #include "sparse/nested_dissection.h"
 #include "sparse/ordering.h"
 #include "sparse/product.h"
 
 namespace wireskin::smooth {
 
-// y = A x for a symmetric matrix with both halves stored: column j is row j. Where most of x is
-// zero, as on meshes of which only the curves are known, the columns of the others are spared.
-static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+// Whether most of x is zero, as on meshes of which only the curves are known.
+static bool is_mostly_zero(Span<const Vec3> x) {
   size_t zeros = 0;
   for (const Vec3& v : x) zeros += v == Vec3{};
-  if (4 * zeros > 3 * x.size()) {
-    for (Vec3& v : y) v = Vec3{};
-    for (uint32_t j = 0; j < a.cols; ++j) {
-      if (x[j] == Vec3{}) continue;
-      for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
-    }
-    return;
-  }
-  for (uint32_t j = 0; j < a.cols; ++j) {
-    Vec3 sum;
-    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
-    y[j] = sum;
-  }
+  return 4 * zeros > 3 * x.size();
 }
 
-// The lower half of -L among the unknowns.
-static Status negative_part(const sparse::Csc& a, Span<const uint32_t> unknown, uint32_t unknowns,
-                            sparse::Csc* part) {
-  part->rows = part->cols = unknowns;
-  TRY(part->start.resize(size_t{unknowns} + 1));
-  TRY(part->row.reserve(a.row.size()));
-  TRY(part->value.reserve(a.row.size()));
-  part->row.clear();
-  part->value.clear();
-  uint32_t j = 0;
-  for (uint32_t column = 0; column < a.cols; ++column) {
-    if (unknown[column] == k_none) continue;
-    part->start[j] = static_cast<uint32_t>(part->row.size());
-    for (uint32_t p = a.start[column]; p < a.start[column + 1]; ++p) {
-      const uint32_t i = unknown[a.row[p]];
-      if (i == k_none || i < j) continue;
-      part->row.push_reserved(i);
-      part->value.push_reserved(-a.value[p]);
-    }
-    ++j;
+// Row j of A x for a symmetric matrix with both halves stored: column j is row j.
+static Vec3 multiply_row(const sparse::Csc& a, uint32_t j, Span<const Vec3> x) {
+  Vec3 sum;
+  for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
+  return sum;
+}
+
+// y = A x; columns that meet zeros are spared where there are many.
+static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+  if (!is_mostly_zero(x)) {
+    for (uint32_t j = 0; j < a.cols; ++j) y[j] = multiply_row(a, j, x);
+    return;
   }
-  part->start[j] = static_cast<uint32_t>(part->row.size());
-  return {};
+  for (Vec3& v : y) v = Vec3{};
+  for (uint32_t j = 0; j < a.cols; ++j) {
+    if (x[j] == Vec3{}) continue;
+    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
+  }
 }
 
 Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
@@ -85,6 +68,10 @@ Status System::find_order(const sparse::Csc& matrix, Array<uint32_t>* order) con
   return sparse::nested_dissection(matrix, {{}, place_.span(), patch_.span()}, order);
 }
 
+static Status no_room_for_factor() {
+  return fail(Code::memory_cap, "the memory cap leaves no room for the factor of the system");
+}
+
 // Finds the order of elimination and the structure of the factor, and whether that fits.
 Status System::analyse() {
   Context& context = weight_.context();
@@ -106,18 +93,27 @@ Status System::analyse() {
   return {};
 }
 
-// The factor of -L_ff, which no weights change.
+// The factor of S - L_ff. Its structure no weights and no penalties change; S no weights.
 Status System::prepare_iteration() {
   Context& context = weight_.context();
   sparse::Csc part(context);
-  Array<uint32_t> order(context);
-  factor_ = sparse::Cholesky(context);
-  TRY(negative_part(*laplacian_, unknown_.span(), unknowns_, &part));
-  TRY(find_order(part, &order));
-  TRY(factor_.analyse(part, order.span()));
-  order.free();
-  iterative_ = true;
-  return factor_.factor(part);
+  Array<double> shift(context);
+  if (order_ == Order::two && !penalty_.empty()) {
+    TRY(shift.resize(penalty_.size()));
+    for (size_t v = 0; v < shift.size(); ++v) {
+      shift[v] = std::sqrt(weight_[v] > 0.0 ? penalty_[v] / weight_[v] : penalty_[v]);
+    }
+  }
+  TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, shift.span(), &part));
+  if (!iterative_) {
+    Array<uint32_t> order(context);
+    factor_ = sparse::Cholesky(context);
+    TRY(find_order(part, &order));
+    TRY(factor_.analyse(part, order.span()));
+    iterative_ = true;
+  }
+  const Status factored = factor_.factor(part);
+  return factored.code == Code::not_positive_definite ? no_room_for_factor() : factored;
 }
 
 // y = (L_ff W L_ff)^-1 x, for order 3 (L_ff W L_ff W L_ff)^-1 x up to the sign.
@@ -151,22 +147,20 @@ Status System::iterate(size_t columns) {
                                     {&apply_laplacian_inverses, this}, b.span(), x.span(), options,
                                     &result));
     context.count_iterations(result.iterations);
-    if (!(result.residual <= 1e-6)) {
-      return fail(Code::memory_cap, "the memory cap leaves no room for the factor of the system");
-    }
+    if (!(result.residual <= 1e-6)) return no_room_for_factor();
     for (size_t i = 0; i < unknowns_; ++i) block_[columns * i + c] = x[i];
   }
   return {};
 }
 
-Status System::factor(Span<const double> weight, Span<const double> penalty) {
+Status System::factor(Span<const double> weight, Span<const double> penalty, bool last) {
   Context& context = weight_.context();
   TRY(context.enter(Stage::operators));
   TRY(weight_.copy(weight));
   TRY(penalty_.copy(penalty));
   if (unknowns_ == 0) return {};
   if (order_ == Order::one) {
-    TRY(negative_part(*laplacian_, unknown_.span(), unknowns_, &matrix_));
+    TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, {}, &matrix_));
   } else if (order_ == Order::two) {
     TRY(sparse::weighted_product(*laplacian_, weight, *laplacian_, unknown_.span(), unknowns_,
                                  sparse::Part::lower, &matrix_));
@@ -187,14 +181,17 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
   }
   add_penalties();
   TRY(context.enter(Stage::factor));
-  if (!analysed_) {
-    TRY(analyse());
-  }
-  if (iterative_) return {};
+  const bool first = !analysed_;
+  if (first) TRY(analyse());
+  if (iterative_) return first || penalty.empty() ? Status{} : prepare_iteration();
   // The factor is the greatest thing in memory: what it does not need goes before it, or after.
   matrix_.row.free();
   Status factored = factor_.factor(matrix_);
   matrix_.value.free();
+  if (last) {
+    factor_.end_factoring();
+    analysed_ = false;
+  }
   factored.place = {};  // a column of ours means nothing to the caller
   return factored;
 }
@@ -205,21 +202,23 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
 Status System::find_gradients(Span<const Field3> fields, double* squares) {
   Context& context = weight_.context();
   const size_t columns = 3 * fields.size(), n = unknown_.size();
-  Array<Vec3> a(context), b(context);
-  TRY(a.resize(n));
-  TRY(b.resize(n));
+  Array<Vec3> image(context), spare(context);
+  TRY(image.resize(n));
+  if (order_ == Order::three) TRY(spare.resize(n));
   for (size_t f = 0; f < fields.size(); ++f) {
     const Field3& field = fields[f];
-    multiply_vectors(*laplacian_, field.value, a.span());
+    Span<const Vec3> x = field.value;  // the last factor L is applied row by row below
     for (int k = 1; k < static_cast<int>(order_); ++k) {
+      const Span<Vec3> y = k == 1 ? image.span() : spare.span();
       const bool aims = k == 1 && !field.target.empty();
-      for (size_t v = 0; v < n; ++v) b[v] = weight_[v] * (aims ? field.target[v] - a[v] : -a[v]);
-      multiply_vectors(*laplacian_, b.span(), a.span());
+      multiply_vectors(*laplacian_, x, y);
+      for (size_t v = 0; v < n; ++v) y[v] = weight_[v] * (aims ? field.target[v] - y[v] : -y[v]);
+      x = y;
     }
     Vec3 sum;
-    for (size_t v = 0; v < n; ++v) {
+    for (uint32_t v = 0; v < n; ++v) {
       if (unknown_[v] == k_none) continue;
-      Vec3 g = a[v];
+      Vec3 g = multiply_row(*laplacian_, v, x);
       if (!penalty_.empty() && penalty_[v] != 0.0) {
         g += penalty_[v] * (field.anchor[v] - field.value[v]);
       }

@@ -8,8 +8,9 @@
 // definite when every component holds a vertex and the free rows stay in. One factor serves any
 // number of fields, several in one sweep; new weights keep the ordering and the symbolic analysis.
 // Where the factor of K would not fit under the memory cap, conjugate gradients take its place,
-// with the inverse of L_ff W^-1 L_ff as preconditioner (order 3: one factor more): the factor of
-// L_ff is a quarter of K's. Order 1 has no way out but the status. Cost: see sparse/cholesky.h.
+// with the inverse of L_ff W^-1 L_ff as preconditioner (laplacian_pairs.h; order 3: one factor
+// more): the factor of L_ff is a quarter of K's. Order 1 has no way out but the status. Cost: see
+// sparse/cholesky.h.
 // Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004.
 #pragma once
 
@@ -51,8 +52,8 @@ class System {
   Status prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
                  const Places& places = {});
   // Assembles and factors with these row weights, and a penalty for each vertex (empty: none); may
-  // be called again.
-  Status factor(Span<const double> weight, Span<const double> penalty);
+  // be called again unless this is the `last` time, which saves memory.
+  Status factor(Span<const double> weight, Span<const double> penalty, bool last = false);
   // `residual`: the greatest relative residual of all columns, after one step of refinement where
   // needed.
   Status solve(Span<const Field3> fields, double* residual);
@@ -75,7 +76,7 @@ class System {
   const sparse::Csc* laplacian_ = nullptr;
   Order order_ = Order::two;
   bool analysed_ = false;
-  bool iterative_ = false;  // factor_ is that of -L_ff
+  bool iterative_ = false;  // factor_ is that of S - L_ff, S from the penalties
   uint32_t unknowns_ = 0;
   Array<Vec3> place_;  // of each unknown until the order is found, or empty
   Array<uint32_t> patch_;

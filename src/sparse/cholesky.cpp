@@ -224,7 +224,16 @@ Status Cholesky::factor(const Csc& lower) {
   return {};
 }
 
-// The lanes of a right-hand side that stand side by side: a row of the solution.
+void Cholesky::end_factoring() {
+  analysed_ = false;
+  lower_.start.free();
+  lower_.index.free();
+  lower_.source.free();
+  supernodes_.of_column.free();
+  fronts_ = Fronts(*context_);
+}
+
+// The triangle of a diagonal block, turned round for the backward pass.
 static DiagonalBlock triangle_at(const double* at, size_t step, uint32_t columns, bool backward) {
   DiagonalBlock d;
   d.columns = columns;
@@ -242,70 +251,121 @@ static DiagonalBlock triangle_at(const double* at, size_t step, uint32_t columns
   return d;
 }
 
+// Asks for `count` numbers of a panel that are read next: in several columns at a time, too many
+// and too short for the processor to foresee.
+static void fetch(const double* at, size_t count) {
+#if defined(__GNUC__)
+  constexpr size_t k_line = 8;
+  for (size_t i = 0; i < count; i += k_line) __builtin_prefetch(at + i, 0, 2);
+#else
+  (void)at, (void)count;
+#endif
+}
+
+namespace {
+
+// The right-hand sides of one supernode: lane l of row r of its panel at value[l * step + r].
+struct Lanes {
+  double* value;
+  size_t step;
+  uint32_t count;
+  double* block;  // eight rows, the lanes of each side by side
+};
+
+}  // namespace
+
+static void gather_lanes(const uint32_t* rows, uint32_t height, const double* y, const Lanes& z) {
+  for (uint32_t l = 0; l < z.count; ++l) {
+    const double* from = y + l;
+    double* to = z.value + l * z.step;
+    for (uint32_t r = 0; r < height; ++r) to[r] = from[size_t{rows[r]} * z.count];
+  }
+}
+
+static void scatter_lanes(const uint32_t* rows, uint32_t height, const Lanes& z, double* y) {
+  for (uint32_t l = 0; l < z.count; ++l) {
+    const double* from = z.value + l * z.step;
+    double* to = y + l;
+    for (uint32_t r = 0; r < height; ++r) to[size_t{rows[r]} * z.count] = from[r];
+  }
+}
+
+// Solves with a diagonal block in rows `first` and on.
+static void solve_triangle(const DenseKernels& kernels, const DiagonalBlock& d, uint32_t first,
+                           bool backward, const Lanes& z) {
+  const uint32_t rows = round_up_rows(z.count);
+  for (uint32_t j = 0; j < d.columns; ++j) {
+    for (uint32_t l = 0; l < z.count; ++l) z.block[j * rows + l] = z.value[l * z.step + first + j];
+  }
+  if (backward) {
+    kernels.solve_block(d, rows, z.block + size_t{d.columns - 1} * rows,
+                        -static_cast<ptrdiff_t>(rows));
+  } else {
+    kernels.solve_block(d, rows, z.block, static_cast<ptrdiff_t>(rows));
+  }
+  for (uint32_t j = 0; j < d.columns; ++j) {
+    for (uint32_t l = 0; l < z.count; ++l) z.value[l * z.step + first + j] = z.block[j * rows + l];
+  }
+}
+
+// What solve() needs behind the right-hand sides.
+static size_t lanes_size(size_t step, uint32_t lanes) {
+  return step * lanes + size_t{DiagonalBlock::k_size} * round_up_rows(lanes);
+}
+
+static Lanes lanes_at(double* at, size_t step, uint32_t lanes) {
+  return {at, step, lanes, at + step * lanes};
+}
+
 // y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S: eight columns at a time, so that the panel
-// is read from end to end. Transposed, a row of y is a column.
+// is read from end to end.
 void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
-  const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
-  const size_t step = supernodes_.column_step(s), bytes = lanes * sizeof(double);
+  const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
+  const size_t step = supernodes_.column_step(s);
   const double* panel = value_.data() + supernodes_.panel[s];
-  const uint32_t* rows = supernodes_.rows(s) + width;
   double* y = workspace_.data();
-  double* own = y + size_t{supernodes_.first[s]} * lanes;
-  double* below = y + size_t{n_} * lanes;
-  for (uint32_t r = 0; r < tail; ++r) {
-    std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, bytes);
-  }
+  const Lanes z = lanes_at(y + size_t{n_} * lanes, lane_step(), lanes);
+  gather_lanes(supernodes_.rows(s), height, y, z);
   for (uint32_t j = 0; j < width; j += k_block) {
     const uint32_t columns = width - j < k_block ? width - j : k_block;
     const uint32_t after = j + columns;
     const double* block = panel + j * step;
-    double* x = own + size_t{j} * lanes;
-    kernels_.solve_block(triangle_at(block + j, step, columns, false), lanes, x, lanes);
-    const auto subtract = [&](uint32_t row, uint32_t count, double* from) {
-      kernels_.update(
-          {lanes, count, columns, x, lanes, block + row, 1, step, from, lanes, false, false},
-          scratch_.data());
-    };
-    if (after < width) subtract(after, width - after, own + size_t{after} * lanes);
-    if (tail > 0) subtract(width, tail, below);
+    if (after < width) fetch(block + columns * step, columns * step);
+    solve_triangle(kernels_, triangle_at(block + j, step, columns, false), j, false, z);
+    if (after == height) break;
+    kernels_.update({round_up_rows(height - after), lanes, columns, block + after, step,
+                     z.value + j, z.step, 1, z.value + after, z.step, false, false},
+                    scratch_.data());
   }
-  for (uint32_t r = 0; r < tail; ++r) {
-    std::memcpy(y + size_t{rows[r]} * lanes, below + size_t{r} * lanes, bytes);
-  }
+  scatter_lanes(supernodes_.rows(s), height, z, y);
 }
 
-// y_S loses L_TS^T y_T, then y_S := L_SS^-T y_S.
+// y_S loses L_TS^T y_T, then y_S := L_SS^-T y_S. Behind the last row the lanes are zero.
 void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
-  const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
+  const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
   const size_t step = supernodes_.column_step(s);
   const double* panel = value_.data() + supernodes_.panel[s];
   double* y = workspace_.data();
-  double* own = y + size_t{supernodes_.first[s]} * lanes;
-  if (tail > 0) {
-    const uint32_t* rows = supernodes_.rows(s) + width;
-    double* below = y + size_t{n_} * lanes;
-    for (uint32_t r = 0; r < tail; ++r) {
-      std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, lanes * sizeof(double));
-    }
-    kernels_.update(
-        {lanes, width, tail, below, lanes, panel + width, step, 1, own, lanes, false, false},
-        scratch_.data());
+  const Lanes z = lanes_at(y + size_t{n_} * lanes, lane_step(), lanes);
+  gather_lanes(supernodes_.rows(s), height, y, z);
+  for (uint32_t l = 0; l < lanes; ++l) {
+    for (uint32_t r = height; r < height + 4; ++r) z.value[l * z.step + r] = 0.0;
   }
   for (uint32_t j = (width - 1) / k_block * k_block + k_block; j > 0;) {
     j -= k_block;
     const uint32_t columns = width - j < k_block ? width - j : k_block;
     const uint32_t after = j + columns;
-    double* x = own + size_t{j} * lanes;
-    if (after < width) {
-      kernels_.update({lanes, columns, width - after, own + size_t{after} * lanes, lanes,
-                       panel + j * step + after, step, 1, x, lanes, false, false},
-                      scratch_.data());
+    const double* block = panel + j * step;
+    if (j > 0) fetch(block - k_block * step, k_block * step);
+    if (after < height) {
+      kernels_.subtract_dots({columns, lanes, round_up_rows(height - after), block + after, step,
+                              z.value + after, z.step, z.value + j, z.step});
     }
-    kernels_.solve_block(triangle_at(panel + j * step + j, step, columns, true), lanes,
-                         x + size_t{columns - 1} * lanes, -static_cast<ptrdiff_t>(lanes));
+    solve_triangle(kernels_, triangle_at(block + j, step, columns, true), j, true, z);
   }
+  scatter_lanes(supernodes_.rows(s), width, z, y);
 }
 
 Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
@@ -319,30 +379,30 @@ Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
 Status Cholesky::solve(Span<double> x, uint32_t columns) {
   if (!factored_) return fail(Code::bad_argument, "there is no factor to solve with");
   WIRESKIN_ASSERT(x.size() == size_t{n_} * columns);
-  const uint32_t lanes = round_up_rows(columns);
   // The update matrices are done with: their memory holds the right-hand sides in elimination
-  // order, and behind them those of the rows below one supernode.
-  const size_t room = (size_t{n_} + tallest_) * lanes;
+  // order, and behind them those of one supernode.
+  const size_t right_hand_sides = size_t{n_} * columns;
+  const size_t room = right_hand_sides + lanes_size(lane_step(), columns);
   if (workspace_.size() < room) workspace_.clear();
   TRY(workspace_.resize(room));
   for (uint32_t k = 0; k < n_; ++k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    double* to = workspace_.data() + size_t{k} * lanes;
-    for (uint32_t c = 0; c < lanes; ++c) to[c] = c < columns ? from[c] : 0.0;
+    double* to = workspace_.data() + size_t{k} * columns;
+    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
   }
+  for (size_t k = right_hand_sides; k < room; ++k) workspace_[k] = 0.0;
   size_t work = 0;
   for (uint32_t s = 0; s < supernodes_.count; ++s) {
-    solve_forward(s, lanes);
-    TRY(count_solve(s, lanes, &work));
+    solve_forward(s, columns);
+    TRY(count_solve(s, columns, &work));
   }
   for (uint32_t s = supernodes_.count; s-- > 0;) {
-    solve_backward(s, lanes);
-    TRY(count_solve(s, lanes, &work));
+    solve_backward(s, columns);
+    TRY(count_solve(s, columns, &work));
   }
   for (uint32_t k = 0; k < n_; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    const double* from = workspace_.data() + size_t{k} * lanes;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
+    for (uint32_t c = 0; c < columns; ++c) to[c] = workspace_[size_t{k} * columns + c];
   }
   return {};
 }

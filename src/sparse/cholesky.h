@@ -33,6 +33,9 @@ class Cholesky {
   // is `not_positive_definite`, place.vertex its column.
   Status factor(const Csc& lower);
 
+  // Gives back what only another factor() would need; the next one begins with analyse().
+  void end_factoring();
+
   // x := A^-1 x, an n x columns block stored row by row.
   Status solve(Span<double> x, uint32_t columns);
 
@@ -52,6 +55,7 @@ class Cholesky {
   static void factor_task(uint32_t index, void* batch);
   Status factor_step(const Step& step, const double* source);
   Status refuse_column(uint32_t s, uint32_t column) const;
+  size_t lane_step() const { return round_up_rows(tallest_) + 4; }
   void solve_forward(uint32_t s, uint32_t lanes);
   void solve_backward(uint32_t s, uint32_t lanes);
   Status count_solve(uint32_t s, uint32_t lanes, size_t* work);

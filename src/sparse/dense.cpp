@@ -21,6 +21,7 @@ struct Pair {
   Pair operator-(const Pair& o) const { return {{v[0] - o.v[0], v[1] - o.v[1]}}; }
   Pair operator+(const Pair& o) const { return {{v[0] + o.v[0], v[1] + o.v[1]}}; }
   Pair operator*(double s) const { return {{v[0] * s, v[1] * s}}; }
+  Pair operator*(const Pair& o) const { return {{v[0] * o.v[0], v[1] * o.v[1]}}; }
 };
 #endif
 
@@ -106,12 +107,13 @@ Instructions best_instructions() {
   return has_instructions(Instructions::avx2) ? Instructions::avx2 : Instructions::baseline;
 }
 
-static const DenseKernels k_baseline_kernels = {&baseline::update, &baseline::solve_block,
-                                                &baseline::add_runs};
+static const DenseKernels k_baseline_kernels = {&baseline::update, &baseline::subtract_dots,
+                                                &baseline::solve_block, &baseline::add_runs};
 #ifdef WIRESKIN_X86
-static const DenseKernels k_avx2_kernels = {&avx2::update, &avx2::solve_block, &avx2::add_runs};
-static const DenseKernels k_avx512_kernels = {&avx512::update, &avx512::solve_block,
-                                              &avx512::add_runs};
+static const DenseKernels k_avx2_kernels = {&avx2::update, &avx2::subtract_dots, &avx2::solve_block,
+                                            &avx2::add_runs};
+static const DenseKernels k_avx512_kernels = {&avx512::update, &avx512::subtract_dots,
+                                              &avx512::solve_block, &avx512::add_runs};
 #endif
 
 DenseKernels dense_kernels(Instructions instructions) {

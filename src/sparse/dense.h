@@ -4,9 +4,10 @@
 //
 // Invariants: all instruction sets, tilings and blockings give the same bits: every output takes
 // its terms one after the other in ascending order, multiplied and then subtracted, never fused,
-// and vectors stand across outputs. Matrices are stored column by column; rows come in multiples of
-// four, and those that pad a matrix are read and written like any other. Source of the blocking:
-// K. Goto, R. van de Geijn, "Anatomy of High-Performance Matrix Multiplication", 2008.
+// and vectors stand across outputs, but for dot products, whose eight partial sums they hold.
+// Matrices are stored column by column; rows come in multiples of four, and those that pad a matrix
+// are read and written like any other. Source of the blocking: K. Goto, R. van de Geijn, "Anatomy
+// of High-Performance Matrix Multiplication", 2008.
 #pragma once
 
 #include "base/array.h"
@@ -28,6 +29,20 @@ struct Update {
   size_t c_step;
   bool lower;      // entries above the diagonal are not needed
   bool overwrite;  // C counts as zero
+};
+
+// c[j + l * c_step] loses the sum over k < depth of a[k + j * a_step] * b[k + l * b_step], for j <
+// columns, l < lanes. The terms go to eight sums in turn, which are then added pairwise.
+struct Dots {
+  uint32_t columns;
+  uint32_t lanes;
+  uint32_t depth;  // a multiple of four
+  const double* a;
+  size_t a_step;
+  const double* b;
+  size_t b_step;
+  double* c;
+  size_t c_step;
 };
 
 // A lower triangle of at most eight columns: entries below the diagonal, inverses on it.
@@ -58,6 +73,7 @@ inline bool needs_scratch(uint32_t rows, uint32_t depth) {
 
 struct DenseKernels {
   void (*update)(const Update& update, double* scratch);
+  void (*subtract_dots)(const Dots& dots);
   // x := x L^-T for rows of length `columns`, whose columns stand `step` apart.
   void (*solve_block)(const DiagonalBlock& block, uint32_t rows, double* x, ptrdiff_t step);
   // Adds the rows k and below of an update's column, `from` its row 0, to a column of the front

@@ -68,9 +68,9 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   mesh::patches_of_vertices(piece.triangle, surface->patch.span(), vertex_patch.span());
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
-    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
-                                   piece.on_border, start.metric, piece.soft,     piece.bare,
-                                   places,          start.spent};
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve,    piece.held,
+                                   piece.on_border, start.metric, piece.soft,        piece.bare,
+                                   places,          start.spent,  start.spent_places};
     return smooth::smooth(context, domain, method, {piece.position, piece.normal},
                           &counts->residual);
   }

@@ -18,9 +18,11 @@ struct Start {
   // Of each vertex: roughly where it will stand (for the order of elimination), and exactly where
   // it starts if it is placed.
   Span<const Vec3> position = {};
-  Span<const uint8_t> placed = {};              // free vertices; empty: none
-  Span<const uint32_t> inner_edge = {};         // of curves inside patches, two vertices each
-  Array<mesh::TriangleShape>* spent = nullptr;  // what `shape` views, if it may be given back
+  Span<const uint8_t> placed = {};       // free vertices; empty: none
+  Span<const uint32_t> inner_edge = {};  // of curves inside patches, two vertices each
+  // What `shape` and `position` view, if it may be given back.
+  Array<mesh::TriangleShape>* spent = nullptr;
+  Array<Vec3>* spent_places = nullptr;
 };
 
 // Neighbours, the check of the mesh, and the counts that follow from them.

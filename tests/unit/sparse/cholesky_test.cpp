@@ -208,6 +208,28 @@ void on_three_threads(uint32_t count, void (*body)(uint32_t, void*), void* data,
 
 }  // namespace
 
+TEST_CASE("cholesky: after the last factor less memory solves the same") {
+  std::mt19937 random(21);
+  const Symmetric a = random_spd(60, 4.0, random);
+  const std::vector<double> b = random_vector(60, random);
+  Heap heap;
+  Cholesky factor(heap.context);
+  const Csc lower = a.csc(heap.context);
+  must(prepare(lower, &factor));
+  std::vector<double> before = b, after = b;
+  must(factor.solve(span(before), 1));
+  const size_t used = heap.context.used_bytes();
+  factor.end_factoring();
+  CHECK(heap.context.used_bytes() < used);
+  must(factor.solve(span(after), 1));
+  CHECK(after == before);
+  CHECK(factor.factor(lower).code == Code::bad_argument);
+  must(prepare(lower, &factor));
+  after = b;
+  must(factor.solve(span(after), 1));
+  CHECK(after == before);
+}
+
 TEST_CASE("cholesky: the same bits on every instruction set and on any number of threads") {
   std::mt19937 random(21);
   const uint32_t side = 110;

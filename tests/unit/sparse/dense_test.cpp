@@ -88,6 +88,41 @@ TEST_CASE("dense: updates done in blocks have the same bits") {
   }
 }
 
+TEST_CASE("dense: dot products are eight sums added pairwise on every instruction set") {
+  std::mt19937 random(8);
+  for (uint32_t depth = 0; depth <= 44; depth += 4) {
+    for (uint32_t columns = 1; columns <= 9; ++columns) {
+      for (uint32_t lanes = 1; lanes <= 7; ++lanes) {
+        const size_t a_step = depth + random() % 5, b_step = depth + random() % 5;
+        const size_t c_step = columns + random() % 5;
+        const std::vector<double> a = random_vector(a_step * columns + 1, random);
+        const std::vector<double> b = random_vector(b_step * lanes + 1, random);
+        const std::vector<double> c = random_vector(c_step * lanes, random);
+        std::vector<double> truth = c;
+        for (uint32_t l = 0; l < lanes; ++l) {
+          for (uint32_t j = 0; j < columns; ++j) {
+            double s[8] = {};
+            for (uint32_t k = 0; k < depth; ++k) {
+              const double product = a[j * a_step + k] * b[l * b_step + k];
+              s[k % 8] = s[k % 8] + product;
+            }
+            const double even = (s[0] + s[4]) + (s[2] + s[6]);
+            const double odd = (s[1] + s[5]) + (s[3] + s[7]);
+            truth[j + l * c_step] -= even + odd;
+          }
+        }
+        for (const Instructions set : k_all) {
+          if (!has_instructions(set)) continue;
+          std::vector<double> result = c;
+          dense_kernels(set).subtract_dots(
+              {columns, lanes, depth, a.data(), a_step, b.data(), b_step, result.data(), c_step});
+          REQUIRE(result == truth);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("dense: rows are solved with every size of triangle, forwards and backwards") {
   std::mt19937 random(5);
   for (uint32_t n = 1; n <= DiagonalBlock::k_size; ++n) {
