@@ -62,9 +62,10 @@ options:
                      order the curves but not shape the surface
                      clamped: biharmonic with curvature prescribed on the curves
   --smooth auto|0|SIGMA
-                     noise of the samples: found and taken out (auto, the default of fair), none,
-                     so that curves are interpolated (0, the default of all other methods), or its
-                     standard deviation in the units of the input
+                     noise of the samples: found and taken out (auto, the default of fair and of
+                     --topology flow; samples without noise stay as they are), none, so that curves
+                     are interpolated (0, the default of all other methods), or its standard
+                     deviation in the units of the input
   --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
                      smoothed away
   --snap LENGTH|auto|off

@@ -72,7 +72,7 @@ static void write_outputs(const Arguments& arguments, const wsk_surface_view& su
   files.commit();
 }
 
-static void print_flow(const wsk_flow_view& view) {
+static void print_flow(const wsk_flow_view& view, int voids_asked) {
   const auto number = [](uint32_t n) { return static_cast<unsigned long>(n); };
   std::printf(
       "from curves alone: Betti numbers %lu %lu %lu, %lu open patches, %lu bare segments%s%s\n",
@@ -80,6 +80,13 @@ static void print_flow(const wsk_flow_view& view) {
       number(view.open_patch_count), number(view.bare_count),
       view.manifold != 0 ? "" : ", not a manifold",
       view.smoothed != 0 ? "; shaped by the normals" : "");
+  if (voids_asked > 0 && view.caged_count < static_cast<uint32_t>(voids_asked)) {
+    std::printf("asked for %d voids, the curves cage %lu\n", voids_asked, number(view.caged_count));
+  }
+  if (view.normals_sentence[0] == 0) return;
+  std::printf("the normals could not be used: %s", view.normals_sentence);
+  if (view.normals_places > 0) std::printf(" (in %lu places)", number(view.normals_places));
+  std::printf("\n");
 }
 
 static void run(const Arguments& arguments) {
@@ -110,7 +117,7 @@ static void run(const Arguments& arguments) {
     std::printf("left out, as the report says: %lu of these patches\n",
                 static_cast<unsigned long>(result.report.failed_patches));
   }
-  if (result.flow != nullptr) print_flow(result.flow->view);
+  if (result.flow != nullptr) print_flow(result.flow->view, arguments.voids);
 }
 
 static int run_words(const std::vector<std::string>& words) {
