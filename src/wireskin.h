@@ -196,7 +196,7 @@ enum {
 typedef int32_t wsk_smoothing;
 
 enum {
-  /* AUTO for WSK_METHOD_FAIR, NONE for all others. */
+  /* AUTO for WSK_METHOD_FAIR and for wsk_flow_build, NONE for all others. */
   WSK_SMOOTHING_DEFAULT = 0,
   /* The samples are exact: curves interpolate them and nodes keep their bits. */
   WSK_SMOOTHING_NONE = 1,
@@ -226,7 +226,8 @@ typedef struct wsk_options {
      two nodes is divided evenly, so distances differ a little from it. Ignored by
      wsk_smooth_mesh. */
   double spacing;
-  /* What is done about noise in the samples of wsk_build, before anything else. */
+  /* What is done about noise in the samples of wsk_build and wsk_flow_build, before anything else.
+   */
   wsk_smoothing smoothing;
   /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none.
    */
@@ -749,6 +750,28 @@ typedef struct wsk_flow_run {
   uint32_t arc, from, to;
 } wsk_flow_run;
 
+typedef int32_t wsk_flow_normals;
+
+enum {
+  WSK_FLOW_NORMALS_NONE = 0, /* no curve has normals */
+  WSK_FLOW_NORMALS_USED = 1, /* they shaped the surface */
+  /* Curves that lack them or are sharp; points may lack them. */
+  WSK_FLOW_NORMALS_INCOMPLETE = 2,
+  /* Edges at which patches branch, or a one-sided surface would have to be turned; 0 if patches
+     only touch in points. */
+  WSK_FLOW_NORMALS_NOT_MANIFOLD = 3,
+  /* Vertices on a border that is no curve: nothing holds them. */
+  WSK_FLOW_NORMALS_FREE_BORDER = 4,
+  /* Vertices on curves where the normal points to the other side than the surface, turned as most
+     of them want it: more than a tenth. */
+  WSK_FLOW_NORMALS_CONTRADICTING = 5,
+  /* Pairs of triangles that crossed after the smoothing, a thousand at most. */
+  WSK_FLOW_NORMALS_CROSSING = 6,
+  /* Triangles are too thin for the smoothing; no places. */
+  WSK_FLOW_NORMALS_TOO_THIN = 7,
+  WSK_FLOW_NORMALS_COUNT = 8
+};
+
 /* What wsk_flow_build found, and how the last surface hangs together. Arrays belong to the flow and
    live until it makes another surface or is freed. */
 typedef struct wsk_flow_view {
@@ -773,8 +796,7 @@ typedef struct wsk_flow_view {
   uint32_t held_count;   /* patches that remeshing spared because they would have crossed others */
   uint32_t crossing_count; /* pairs of triangles that cross: none but for rounding */
   int32_t manifold; /* non-zero: every edge has at most two triangles, every vertex one fan */
-  int32_t smoothed; /* non-zero: the normals of the curves shaped it; not where triangles would
-                       have crossed then, or a border is no curve */
+  int32_t smoothed; /* non-zero: the normals of the curves shaped it; `normals` says more */
   const wsk_flow_patch* patches;
   uint32_t loop_count;
   const uint32_t* loop_first; /* loop l has the runs loop_first[l] .. loop_first[l + 1] */
@@ -783,12 +805,35 @@ typedef struct wsk_flow_view {
   const uint32_t* arc_first;     /* arc_count + 1 */
   const uint32_t* arc_vertices;  /* vertices of the surface; a closed arc repeats its first */
   const uint32_t* bare_vertices; /* two for each bare segment */
+
+  /* What became of the normals, and at how many places (WSK_FLOW_NORMALS_... says of what) they
+     could not be used; in words "" where there are none or they are used, else static text. */
+  wsk_flow_normals normals;
+  uint32_t normals_places;
+  const char* normals_sentence;
+  /* Voids found worth enclosing, or as many as were asked for; fewer than that if the curves cage
+     no more. betti[2] are those that the surface encloses in the end. */
+  uint32_t caged_count;
 } wsk_flow_view;
 
 /* Samples the curves and finds the voids. Curves join where samples carry the same node number or
- * coincide; curves of one sample are points. Normals are not needed: null, or given for all curves,
- * and then they shape the surface. A curve's boundary, soft and sharp are not read, but sharp
- * curves count as having no normals. `options` and `flow_options` may be null (defaults). On
+ * coincide; curves of one sample are points. Normals are not needed: null, or given for all curves
+ * but points, and then they shape the surface.
+ *
+ * Noise is taken out first, as wsk_options.smoothing says, over the curves that fragments form;
+ * unless told otherwise it is looked for, and samples without noise, or with less than a hundred
+ * thousandth of the diagonal, keep their bits. Corners, where a curve turns by more than 35 degrees
+ * and by more than its noise explains, stay corners.
+ *
+ * Junctions, ends, corners and isolated points, as they are after that, are vertices of the result,
+ * bit for bit. All other vertices on curves lie on the polyline through the samples, and no sample
+ * is farther from the polyline of the result than a twentieth of the sampling; the report of
+ * wsk_flow_surface says how far they are, noise included. (With normals, vertices between two
+ * samples leave the polyline to where the normals bend it.)
+ *
+ * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
+ * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial changes
+ * nothing, since no patch is left out ever. `options` and `flow_options` may be null (defaults). On
  * success *flow is to be given to wsk_flow_free; it keeps the allocator of the options, not the
  * callbacks. */
 WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
@@ -797,9 +842,10 @@ WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
 
 /* A surface like that of wsk_build. With normals it is smoothed by wsk_options.method where it is a
  * manifold and all its borders are curves; else, and without normals, it is made of the remeshed
- * patches, in which curvatures are zero if it is no manifold. No two triangles of it cross, for
- * which samples of curves that all but touch may stay where the jitter moved them. The surface
- * lives on without the flow. One flow makes one surface at a time. */
+ * patches, in which curvatures are zero if it is no manifold; wsk_flow_view.normals says why. The
+ * noise in the report is that of wsk_flow_build, wsk_options.smoothing is not read again. No two
+ * triangles of it cross, for which samples of curves that all but touch may stay where the jitter
+ * moved them. The surface lives on without the flow. One flow makes one surface at a time. */
 WSK_API wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
                                     const wsk_flow_options* flow_options, wsk_surface** surface,
                                     wsk_report* report);

@@ -54,10 +54,10 @@ options (lengths are in the units of the input; "the diagonal" is that of its bo
                      order the curves but not shape the surface
                      clamped: biharmonic with curvature prescribed on the curves
   --smooth auto|0|SIGMA
-                     noise of the samples: found and taken out (auto, the default of fair), none,
-                     so that curves are interpolated (0, the default of all other methods), or its
-                     standard deviation, which must not change the size of a curve by more than a
-                     fifth
+                     noise of the samples: found and taken out (auto, the default of fair and of
+                     --topology flow; samples without noise stay as they are), none, so that curves
+                     are interpolated (0, the default of all other methods), or its standard
+                     deviation, which must not change the size of a curve by more than a fifth
   --soft LENGTH      curves pull instead of holding: details of a curve shorter than LENGTH are
                      smoothed away; at most a tenth of the diagonal (default 0: curves hold)
   --snap LENGTH|auto|off

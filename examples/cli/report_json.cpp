@@ -173,6 +173,13 @@ std::string voids_json(const FlowSummary& flow) {
   return "[" + list + "]";
 }
 
+const char* normals_name(wsk_flow_normals normals) {
+  constexpr const char* k_names[WSK_FLOW_NORMALS_COUNT] = {
+      "none",        "used",          "incomplete", "not_manifold",
+      "free_border", "contradicting", "crossing",   "too_thin"};
+  return k_names[normals];
+}
+
 std::string flow_json(const FlowSummary& flow) {
   const wsk_flow_view& view = flow.view;
   JsonObject object("  ");
@@ -188,6 +195,11 @@ std::string flow_json(const FlowSummary& flow) {
   object.count("crossings", view.crossing_count);
   object.member("manifold", view.manifold != 0 ? "true" : "false");
   object.member("smoothed", view.smoothed != 0 ? "true" : "false");
+  object.text("normals", normals_name(view.normals));
+  object.count("normals_places", view.normals_places);
+  object.member("normals_sentence",
+                view.normals_sentence[0] == 0 ? "null" : json_string(view.normals_sentence));
+  object.count("caged_voids", view.caged_count);
   object.member("voids", voids_json(flow));
   uint32_t between = 0;  // a wall between two voids makes its curves bound more than two patches
   for (const wsk_flow_patch& p : flow.patches) {

@@ -44,13 +44,21 @@ std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& 
   return idle;
 }
 
-static std::string flow_line(const wsk_flow_view& view) {
-  return "from curves alone: Betti numbers " + std::to_string(view.betti[0]) + " " +
-         std::to_string(view.betti[1]) + " " + std::to_string(view.betti[2]) + ", " +
-         counted(view.open_patch_count, "open patch", "open patches") + ", " +
-         counted(view.bare_count, "bare segment", "bare segments") +
-         (view.manifold != 0 ? "" : ", not a manifold") +
-         (view.smoothed != 0 ? "; shaped by the normals" : "") + "\n";
+static std::string flow_lines(const wsk_flow_view& view, int voids_asked) {
+  std::string text = "from curves alone: Betti numbers " + std::to_string(view.betti[0]) + " " +
+                     std::to_string(view.betti[1]) + " " + std::to_string(view.betti[2]) + ", " +
+                     counted(view.open_patch_count, "open patch", "open patches") + ", " +
+                     counted(view.bare_count, "bare segment", "bare segments") +
+                     (view.manifold != 0 ? "" : ", not a manifold") +
+                     (view.smoothed != 0 ? "; shaped by the normals" : "") + "\n";
+  if (voids_asked > 0 && view.caged_count < static_cast<uint32_t>(voids_asked)) {
+    text += "asked for " + counted(static_cast<uint32_t>(voids_asked), "void", "voids") +
+            ", the curves cage " + std::to_string(view.caged_count) + "\n";
+  }
+  if (view.normals_sentence[0] == 0) return text;
+  text += std::string("the normals could not be used: ") + view.normals_sentence;
+  if (view.normals_places > 0) text += " (" + counted(view.normals_places, "place", "places") + ")";
+  return text + "\n";
 }
 
 std::string summary(const Arguments& arguments, const Network& network, const BuildResult& result,
@@ -67,7 +75,7 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
   if (failed > 0) {
     text += counted(failed, "patch was", "patches were") + " left out, the report says why\n";
   }
-  if (result.flow != nullptr) text += flow_line(result.flow->view);
+  if (result.flow != nullptr) text += flow_lines(result.flow->view, arguments.voids);
   for (const IdleOption& option : idle_options(arguments, network, result)) {
     text += option.name + " had no effect: " + option.reason + "\n";
   }

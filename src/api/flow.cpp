@@ -4,6 +4,7 @@
 
 #include "api/boundary.h"
 #include "flow/critical.h"
+#include "surface/flow_noise.h"
 #include "surface/from_flow.h"
 
 namespace wireskin::api {
@@ -32,13 +33,20 @@ struct FlowTables {
 struct wsk_flow {
   wireskin::Context context;
   wireskin::flow::Flow flow;
+  wireskin::Array<wireskin::Vec3> given;   // the caller's samples before noise was taken out
   wireskin::Array<wireskin::Vec3> normal;  // of the caller's samples, or empty
+  wireskin::network::SmoothingReport noise;
+  uint32_t bare_curves = 0;  // without normals, where others have some
   wireskin::api::FlowTables tables;
   int exponent = 0;
   wsk_flow_view view = {};
 
   wsk_flow(const wireskin::Allocator& allocator, size_t cap, const wireskin::Callbacks& callbacks)
-      : context(allocator, cap, callbacks), flow(context), normal(context), tables(context) {}
+      : context(allocator, cap, callbacks),
+        flow(context),
+        given(context),
+        normal(context),
+        tables(context) {}
 };
 
 namespace wireskin::api {
@@ -77,10 +85,12 @@ struct FlowInput {
 
 }  // namespace
 
+// `bare`: curves that have no normals, points aside; all of them counts as none of them.
 static Status count_flow_samples(const wsk_curve* curves, size_t count, size_t* total,
-                                 bool* normals) {
+                                 uint32_t* bare) {
+  uint32_t lines = 0;
   *total = 0;
-  *normals = true;
+  *bare = 0;
   for (size_t c = 0; c < count; ++c) {
     Place place;
     place.curve = static_cast<uint32_t>(c);
@@ -93,20 +103,26 @@ static Status count_flow_samples(const wsk_curve* curves, size_t count, size_t* 
     if (curves[c].positions == nullptr) {
       return fail(Code::bad_argument, "the curve has no positions", place);
     }
-    if (curves[c].normals == nullptr || curves[c].sharp != 0) *normals = false;
+    if (curves[c].soft > 0.0) {
+      return fail(Code::bad_argument, "a surface from curves alone cannot have soft curves", place);
+    }
     *total += curves[c].sample_count;
+    if (curves[c].sample_count == 1) continue;
+    ++lines;
+    *bare += curves[c].normals == nullptr || curves[c].sharp != 0;
   }
+  if (*bare == lines) *bare = k_none;
   return {};
 }
 
 static Status read_flow_curves(const wsk_curve* curves, size_t count, FlowInput* input,
-                               Array<Vec3>* normal) {
+                               Array<Vec3>* normal, uint32_t* bare) {
   size_t total = 0;
-  bool normals = false;
   if (count == 0) return fail(Code::empty, "there are no curves");
   if (curves == nullptr) return fail(Code::bad_argument, "the curves are null");
   if (count >= k_none / 4) return fail(Code::too_large, "too many curves for 32-bit indices");
-  TRY(count_flow_samples(curves, count, &total, &normals));
+  TRY(count_flow_samples(curves, count, &total, bare));
+  const bool normals = *bare == 0;
   TRY(input->start.reserve(count + 1));
   TRY(input->closed.reserve(count));
   TRY(input->position.reserve(total));
@@ -124,13 +140,26 @@ static Status read_flow_curves(const wsk_curve* curves, size_t count, FlowInput*
       input->position.push_reserved(value);
       input->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
       if (!normals) continue;
-      TRY(read_normal({curve.normals, curve.normal_stride}, i, place, &value));
+      value = {};
+      if (curve.normals != nullptr) {
+        TRY(read_normal({curve.normals, curve.normal_stride}, i, place, &value));
+      }
       normal->push_reserved(value);
     }
     input->closed.push_reserved(curve.closed != 0);
     input->start.push_reserved(static_cast<uint32_t>(input->position.size()));
   }
   return {};
+}
+
+// Without noise the samples keep their bits, so looking for it is no risk.
+static network::SmoothingOptions flow_smoothing_of(const wsk_options& options, const Scale& scale) {
+  const bool given = options.smoothing == WSK_SMOOTHING_GIVEN;
+  if (options.smoothing == WSK_SMOOTHING_NONE || (given && options.noise == 0.0)) {
+    return {network::Noise::none, 0.0};
+  }
+  if (given) return {network::Noise::given, scale(options.noise)};
+  return {network::Noise::estimate, 0.0};
 }
 
 static Status list_voids(const flow::Persistence& persistence, const Scale& unscale,
@@ -147,7 +176,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   Context& context = made->context;
   FlowInput input(context);
   TRY(context.enter(Stage::input));
-  TRY(read_flow_curves(curves, count, &input, &made->normal));
+  TRY(read_flow_curves(curves, count, &input, &made->normal, &made->bare_curves));
   TRY(find_scale(input.position.span(), &made->exponent));
   const Scale scale(-made->exponent);
   for (Vec3& p : input.position) p = scale(p);
@@ -163,6 +192,10 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   inside.complex.seed = flow_options.seed;
   const flow::Polylines polylines = {input.start.span(), input.position.span(), input.number.span(),
                                      input.closed.span()};
+  TRY(made->given.copy(input.position.span()));
+  TRY(context.enter(Stage::curves));
+  TRY(smooth_polylines(context, polylines, flow_smoothing_of(options, scale), input.position.span(),
+                       made->normal.span(), &made->noise));
   TRY(flow::build_flow(context, polylines, inside, &made->flow));
   TRY(list_voids(made->flow.persistence, Scale(made->exponent), &made->tables.voids));
   wsk_flow_view& view = made->view;
@@ -173,6 +206,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   view.missing_count = made->flow.curves.missing;
   view.void_count = static_cast<uint32_t>(made->tables.voids.size());
   view.voids = made->tables.voids.data();
+  view.normals_sentence = "";
   flow::CriticalPoints critical(context);
   TRY(flow::find_critical_points(made->flow.complex, &critical));
   view.critical_count[0] = critical.points;
@@ -227,6 +261,28 @@ static Status list_arcs(const flow::Samples& samples, Span<const uint32_t> bare,
   return {};
 }
 
+static const char* normals_sentence(NormalsUse use) {
+  switch (use) {
+    case NormalsUse::none:
+    case NormalsUse::used:
+      return "";
+    case NormalsUse::incomplete:
+      return "some curves have no normals, or are sharp";
+    case NormalsUse::not_manifold:
+      return "the surface is no manifold with two sides: patches branch, touch in points or cannot "
+             "be turned alike";
+    case NormalsUse::free_border:
+      return "part of the surface's border is no curve";
+    case NormalsUse::contradicting:
+      return "normals contradict each other or the surface";
+    case NormalsUse::crossing:
+      return "the surface they give would cross itself";
+    case NormalsUse::too_thin:
+      return "triangles are too thin to be smoothed";
+  }
+  return "";
+}
+
 static void fill_flow_view(const flow::Reconstruction& reconstruction, const FlowOutcome& outcome,
                            const FlowTables& tables, wsk_flow_view* view) {
   for (int k = 0; k < 3; ++k) view->betti[k] = reconstruction.betti[k];
@@ -238,7 +294,11 @@ static void fill_flow_view(const flow::Reconstruction& reconstruction, const Flo
   view->held_count = outcome.held_back;
   view->crossing_count = outcome.crossings;
   view->manifold = outcome.manifold;
-  view->smoothed = outcome.smoothed;
+  view->smoothed = outcome.normals == NormalsUse::used;
+  view->normals = static_cast<wsk_flow_normals>(outcome.normals);
+  view->normals_places = outcome.normals_places;
+  view->normals_sentence = normals_sentence(outcome.normals);
+  view->caged_count = static_cast<uint32_t>(reconstruction.topology.chosen.size());
   view->patches = tables.patches.data();
   view->loop_count = static_cast<uint32_t>(tables.loop_first.size() - 1);
   view->loop_first = tables.loop_first.data();
@@ -265,6 +325,8 @@ static Status make_flow_surface(Context& context, const wsk_options& options,
   FlowSettings settings;
   settings.method = static_cast<smooth::Method>(options.method);
   settings.normal = flow->normal.span();
+  settings.given = flow->given.span();
+  settings.bare_curves = flow->bare_curves;
   if (flow_options.raw == 0) {
     settings.spacing = options.spacing > 0.0 ? scale(options.spacing) : flow->flow.step;
     if (options.spacing > 0.0 && settings.spacing == 0.0) {
@@ -274,6 +336,7 @@ static Status make_flow_surface(Context& context, const wsk_options& options,
   TRY(flow::reconstruct(context, flow->flow, inside, &reconstruction));
   const Status status =
       surface_from_flow(context, flow->flow, reconstruction, settings, &surface, &outcome);
+  surface.counts.noise = flow->noise;
   report_counts(surface.counts, unscale, report);
   TRY(status);
   TRY(tables.voids.copy(flow->tables.voids.span()));
@@ -309,7 +372,19 @@ static void report_flow(wsk_flow* made, size_t curves, wsk_report* report) {
   report->curves = static_cast<uint32_t>(curves);
   report->segments = made->flow.arcs.size();
   for (const uint8_t node : made->flow.arcs.is_node) report->nodes += node;
+  report->noise_position = Scale(made->exponent)(made->noise.sigma_position);
+  report->noise_normal = made->noise.sigma_normal;
   report_costs(made->context, report);
+}
+
+// What both calls read; a surface from curves alone holds on to all of them.
+static Status read_both_options(const wsk_options* options, const wsk_flow_options* flow_options,
+                                wsk_options* checked, wsk_flow_options* flow_checked) {
+  TRY(read_options(options, checked));
+  if (checked->soft > 0.0) {
+    return fail(Code::bad_argument, "soft is not for surfaces from curves alone");
+  }
+  return read_flow_options(flow_options, flow_checked);
 }
 
 }  // namespace wireskin::api
@@ -336,8 +411,7 @@ wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk
   if (flow == nullptr) {
     return api::finish(fail(Code::bad_argument, "there is no place for the flow"), &report, out);
   }
-  Status status = api::read_options(options, &checked);
-  if (status.ok()) status = api::read_flow_options(flow_options, &flow_checked);
+  Status status = api::read_both_options(options, flow_options, &checked, &flow_checked);
   if (!status.ok()) return api::finish(status, &report, out);
   wsk_flow* made = nullptr;
   status = api::start_flow(checked, &made);
@@ -367,8 +441,9 @@ wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
   if (status.ok() && surface == nullptr) {
     status = fail(Code::bad_argument, "there is no place for the surface");
   }
-  if (status.ok()) status = api::read_options(options, &checked);
-  if (status.ok()) status = api::read_flow_options(flow_options, &flow_checked);
+  if (status.ok()) {
+    status = api::read_both_options(options, flow_options, &checked, &flow_checked);
+  }
   if (!status.ok()) return api::finish(status, &report, out);
   Context context(api::allocator_of(checked), checked.memory_cap, api::callbacks_of(checked));
   wsk_surface* made = nullptr;

@@ -4,6 +4,9 @@
 // Samples::at), or none; and for each other edge ab the sample m between, where a triangle a m b
 // has two segments for its other edges: a chord. Sheets that meet at a chord are taken to meet at
 // the curve. Segments that are no edges of the complex are counted. Linear.
+// Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014,
+// section 4.1 (segments as edges); chords and Gabriel edges: U. Bauer, H. Edelsbrunner, "The Morse
+// Theory of Cech and Delaunay Complexes", 2017.
 #pragma once
 
 #include "flow/complex.h"

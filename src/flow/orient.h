@@ -1,7 +1,8 @@
 // Turns the triangles of the walls so that neighbours agree: towards the outside where they bound
 // a void, as their neighbours across edges of two triangles elsewhere.
 //
-// Linear. A wall that is one-sided (a Moebius band) keeps a seam.
+// Linear. A wall that is one-sided (a Moebius band) keeps a seam. Source of the voids on the sides:
+// B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3.
 #pragma once
 
 #include "flow/topology.h"

@@ -6,7 +6,8 @@
 // the path along the curve; a class of triangles whose border cancels out by that is an ear and
 // belongs to every patch at its chord. Where sheets merge short of a curve, the rest of the way (a
 // tail) belongs to each of them. So ears and tails occur in several patches. A patch whose border
-// still has an edge off the curves is open. Near-linear.
+// still has an edge off the curves is open. Near-linear. Source: B. Sadri, K. Singh,
+// "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014; chords and tails are our own.
 #pragma once
 
 #include "flow/topology.h"

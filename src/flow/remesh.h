@@ -8,7 +8,8 @@
 // embedded complex itself; triangles of it that cross all the same, because curves all but touch,
 // get the complex's own, jittered points. Without spacing all patches are left as they are. Every
 // triangle of the walls occurs once, ears and tails in their first patch. Near-linear in the
-// result.
+// result. Source of the remeshing to fair patches: B. Sadri, K. Singh, "Flow-Complex-Based Shape
+// Reconstruction from 3D Curves", 2014, section 5.
 #pragma once
 
 #include "flow/flow.h"

@@ -17,8 +17,10 @@ struct ArcWalk {
   uint32_t step;
 
   ArcWalk(const Arcs& all, uint32_t arc) : arcs(all), step(all.start[arc]) {}
+  void go_back(uint32_t to) { step = to; }
   Vec3 at(double along, uint32_t last_step) {
     while (step < last_step && arcs.along[step + 1] < along) ++step;
+    if (arcs.along[step + 1] == along) return arcs.vertex[arcs.path[step + 1]];
     const double length = arcs.along[step + 1] - arcs.along[step];
     const double share = length > 0.0 ? (along - arcs.along[step]) / length : 0.0;
     const Vec3 &a = arcs.vertex[arcs.path[step]], &b = arcs.vertex[arcs.path[step + 1]];
@@ -40,6 +42,26 @@ struct Stations {
   Array<double> along;
 
   explicit Stations(Context& context) : start(context), along(context) {}
+};
+
+// The stations of one arc; fixed ones stay where they are.
+struct StationLine {
+  Array<double> along;
+  Array<uint8_t> fixed;
+
+  explicit StationLine(Context& context) : along(context), fixed(context) {}
+  void clear() {
+    along.clear();
+    fixed.clear();
+  }
+  Status push(double at, uint8_t is_fixed) {
+    TRY(along.push(at));
+    return fixed.push(is_fixed);
+  }
+  Status copy(const StationLine& other) {
+    TRY(along.copy(other.along.span()));
+    return fixed.copy(other.fixed.span());
+  }
 };
 
 }  // namespace
@@ -126,34 +148,121 @@ static bool is_loop(const Arcs& arcs, uint32_t a) {
   return arcs.path[arcs.start[a]] == arcs.path[arcs.start[a + 1] - 1];
 }
 
+// The place on the arc's path, strictly between two lengths, that lies farthest from the chord
+// between these; k_none if none is farther than `tolerance`. The walk goes on to the end.
+static uint32_t worst_between(const Arcs& arcs, uint32_t a, double from, double to,
+                              double tolerance, ArcWalk* walk) {
+  const uint32_t last_step = arcs.start[a + 1] - 2;
+  const Vec3 p = walk->at(from, last_step);
+  const uint32_t first = walk->step + 1;
+  const Vec3 q = walk->at(to, last_step);
+  uint32_t worst = k_none;
+  for (uint32_t i = first; i <= last_step && arcs.along[i] < to; ++i) {
+    if (!(arcs.along[i] > from)) continue;
+    const double distance = distance_to_segment(arcs.vertex[arcs.path[i]], p, q);
+    if (!(distance > tolerance)) continue;
+    tolerance = distance;
+    worst = i;
+  }
+  return worst;
+}
+
+// The step from an end of the arc, halved until the arc is nearly straight so far.
+static double straight_step(const Arcs& arcs, uint32_t a, bool at_end, double step) {
+  constexpr int k_most_halvings = 20;
+  const double whole = arcs.length_of(a);
+  for (int k = 0; k < k_most_halvings; ++k, step *= 0.5) {
+    ArcWalk walk(arcs, a);
+    const double from = at_end ? whole - step : 0.0, to = at_end ? whole : step;
+    if (worst_between(arcs, a, from, to, k_given_distance * step, &walk) == k_none) break;
+  }
+  return step;
+}
+
+// Evenly from the last station on; `from` itself is one already.
+static Status divide_stretch(double from, double to, double step, StationLine* line) {
+  const uint32_t pieces = pieces_for(to - from, step * (1.0 + 1e-9));
+  if (line->along.size() + pieces > k_most_samples) {
+    return fail(Code::too_large, "curves so near to each other need too many samples");
+  }
+  for (uint32_t i = 1; i < pieces; ++i) TRY(line->push(from + (to - from) * i / pieces, 0));
+  return line->push(to, 1);
+}
+
+// Given points that lie too far from the segments become stations, the worst of each first: a
+// station nearby moves there, or else one is added. At last all points of a segment are added, so
+// that the cost stays near-linear whatever the curve.
+static Status take_strays(const Arcs& arcs, uint32_t a, double step, StationLine* line,
+                          StationLine* work) {
+  constexpr int k_most_passes = 16;
+  constexpr double k_near = 0.4;  // of the step
+  bool any = true;
+  for (int pass = 0; any && pass <= k_most_passes; ++pass) {
+    ArcWalk walk(arcs, a);
+    any = false;
+    work->clear();
+    for (size_t i = 0; i + 1 < line->along.size(); ++i) {
+      const double from = line->along[i], to = line->along[i + 1];
+      const uint32_t first = walk.step + 1;
+      const uint32_t worst = worst_between(arcs, a, from, to, k_given_distance * step, &walk);
+      TRY(work->push(from, line->fixed[i]));
+      if (worst == k_none) continue;
+      any = true;
+      const double at = arcs.along[worst];
+      if (pass == k_most_passes) {
+        for (uint32_t k = first; arcs.along[k] < to; ++k) {
+          if (arcs.along[k] > from) TRY(work->push(arcs.along[k], 1));
+        }
+      } else if (work->fixed.back() == 0 && at - from < k_near * step) {
+        work->along.back() = at;
+        work->fixed.back() = 1;
+      } else if (line->fixed[i + 1] == 0 && to - at < k_near * step) {
+        line->along[i + 1] = at;
+        line->fixed[i + 1] = 1;
+        walk.go_back(first - 1);
+      } else {
+        TRY(work->push(at, 1));
+      }
+    }
+    TRY(work->push(line->along.back(), 1));
+    if (any) TRY(line->copy(*work));
+  }
+  return {};
+}
+
 // Divides every arc; at a node all arcs take the same first step, the least of their own.
 static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double> greatest,
                           Stations* stations) {
   Array<double> first_step(context);
+  StationLine own(context), work(context);
   TRY(first_step.assign(arcs.vertex.size(), DBL_MAX));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const uint32_t ends[2] = {arcs.path[arcs.start[a]], arcs.path[arcs.start[a + 1] - 1]};
     const uint32_t wished = pieces_for(arcs.length_of(a), greatest[a]);
     const uint32_t least = is_loop(arcs, a) ? k_least_pieces_of_loop : k_least_pieces;
     const double step = arcs.length_of(a) / (wished < least ? least : wished);
-    for (const uint32_t v : ends) first_step[v] = smaller(first_step[v], step);
+    for (uint32_t k = 0; k < 2; ++k) {
+      const double straight = arcs.closed[a] != 0 ? step : straight_step(arcs, a, k == 1, step);
+      first_step[ends[k]] = smaller(first_step[ends[k]], straight);
+    }
   }
   TRY(stations->start.push(0));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const double whole = arcs.length_of(a);
     const double begin = first_step[arcs.path[arcs.start[a]]];
     const double end = first_step[arcs.path[arcs.start[a + 1] - 1]];
-    const double rest = whole - begin - end;  // at least one step, there are three
     const double step = arcs.closed[a] != 0 ? begin : greatest[a];
-    const uint32_t pieces = pieces_for(rest, step * (1.0 + 1e-9));
-    if (stations->along.size() + pieces > k_most_samples) {
+    own.clear();
+    TRY(own.push(0.0, 1));
+    TRY(own.push(begin, arcs.closed[a] == 0));
+    TRY(divide_stretch(begin, whole - end, step, &own));
+    TRY(own.push(whole, 1));
+    if (arcs.closed[a] != 0) own.fixed[own.fixed.size() - 2] = 0;
+    TRY(take_strays(arcs, a, step, &own, &work));
+    if (stations->along.size() + own.along.size() > k_most_samples) {
       return fail(Code::too_large, "curves so near to each other need too many samples");
     }
-    TRY(stations->along.push(0.0));
-    for (uint32_t i = 0; i <= pieces; ++i) {
-      TRY(stations->along.push(begin + rest * i / (pieces == 0 ? 1 : pieces)));
-    }
-    TRY(stations->along.push(whole));
+    for (const double at : own.along) TRY(stations->along.push(at));
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
     if (a % 1024 == 0) TRY(context.checkpoint());
   }

@@ -1,21 +1,24 @@
 // Points on arcs, dense enough that nothing slips between them: the samples of which the flow
 // complex is made.
 //
-// In: arcs and the greatest step. Out: the samples, those of each arc in order, with the caller's
-// curve and the place on it. Invariants: every node and every isolated point is a sample bit for
-// bit; at a node all arcs begin with steps of the same length; steps are at most half the distance
-// to the nearest other arc (its directed Hausdorff distance) down to a floor; every segment is
-// Gabriel, that is, no sample lies in the ball of which it is the diameter, unless it is shorter
-// than k_least_segment, which is counted. Near-linear where arcs are not all near each other.
-// Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014,
-// section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells round nodes).
+// In: arcs and the greatest step. Out: the samples, those of each arc in order, with the place on
+// it. Invariants: samples lie on the polylines; every node and every isolated point is a sample bit
+// for bit, and no given point is farther than k_given_distance steps from the segments;
+// at a node all arcs begin with steps of the same length; steps are at most half the distance to
+// the nearest other arc (its directed Hausdorff distance) down to a floor, but for those beside a
+// sample that moved to a given point; every segment is Gabriel, that is, no sample lies in the ball
+// of which it is the diameter, unless it is shorter than k_least_segment, which is
+// counted. Near-linear where arcs are not all near each other. Sources: B. Sadri, K. Singh,
+// "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.1; J. Ruppert, "A
+// Delaunay Refinement Algorithm", 1995 (shells round nodes).
 #pragma once
 
 #include "flow/arcs.h"
 
 namespace wireskin::flow {
 
-inline constexpr double k_least_segment = 1e-5;  // of the diagonal
+inline constexpr double k_least_segment = 1e-5;   // of the diagonal
+inline constexpr double k_given_distance = 0.05;  // of the greatest step
 
 struct Samples {
   Array<Vec3> position;

@@ -143,6 +143,17 @@ static Status apply_weights(WeightSearch* search, const KeptSamples& samples,
   return {};
 }
 
+// The score is a variance divided by a share of the freedom, so the variance at the weight that
+// cross validation would choose cannot be more than the score of any other weight.
+static Status is_negligible(WeightSearch* search, const SmoothingOptions& options, bool* yes) {
+  *yes = false;
+  if (options.noise != Noise::estimate || !(options.negligible > 0.0)) return {};
+  TRY(try_weight(search, 0));
+  *yes = score(*search, 0, k_positions) <= options.negligible * options.negligible &&
+         score(*search, 0, k_normals) <= options.negligible_normal * options.negligible_normal;
+  return {};
+}
+
 // Smooths all the samples with one weight. `unknowns`: how many there are.
 static Status smooth_together(Context& context, const KeptSamples& samples,
                               const SmoothingOptions& options, SmoothingReport* report,
@@ -156,6 +167,9 @@ static Status smooth_together(Context& context, const KeptSamples& samples,
   TRY(search.roughness.build(samples, false));
   *unknowns = search.roughness.unknowns();
   if (search.roughness.rows() < k_least_rows) return {};
+  bool negligible = false;
+  TRY(is_negligible(&search, options, &negligible));
+  if (negligible) return {};
   TRY(choose_weights(&search, options, k_positions, report, &variance));
   const double most = k_drowned * search.roughness.spacing();
   if (variance > most * most) {

@@ -26,6 +26,9 @@ enum class Noise {
 struct SmoothingOptions {
   Noise noise = Noise::estimate;
   double sigma = 0.0;  // standard deviation of each component of the given positions
+  // Less noise than this in positions and in normals need not be found: where the least weight
+  // bounds it by that, no other is tried and nothing moves.
+  double negligible = 0.0, negligible_normal = 0.0;
 };
 
 // Of several connected components the mean squares of the noise, and the greatest weights.

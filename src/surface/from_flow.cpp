@@ -1,10 +1,12 @@
 #include "surface/from_flow.h"
 
+#include "base/sort.h"
 #include "flow/crossings.h"
 #include "mesh/curvature.h"
 #include "num/minmax.h"
 #include "surface/constraints.h"
 #include "surface/finish.h"
+#include "surface/flow_measure.h"
 
 namespace wireskin {
 
@@ -185,22 +187,110 @@ static void count_flow(const flow::Flow& flow, const flow::Reconstruction& recon
   for (const uint32_t curve : surface->vertex_curve) counts.free_vertices += curve == k_none;
 }
 
-// Smooths, unless the smoothed surface would cross itself or has borders that nothing holds: then
-// all is as before, and *done stays false.
+// Edges that more than one triangle passes in the same direction.
+static Status count_branches(Span<const uint32_t> triangles, Context& context, uint32_t* count) {
+  struct HalfEdge {
+    uint32_t from, to, at;
+  };
+  Array<HalfEdge> edges(context);
+  TRY(edges.reserve(triangles.size()));
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    edges.push_reserved({triangles[h], triangles[mesh::next_half_edge(h)], h});
+  }
+  sort(edges.span(), [](const HalfEdge& a, const HalfEdge& b) {
+    if (a.from != b.from) return a.from < b.from;
+    return a.to != b.to ? a.to < b.to : a.at < b.at;
+  });
+  *count = 0;
+  for (size_t i = 1, run = 1; i < edges.size(); ++i) {
+    run = edges[i].from == edges[i - 1].from && edges[i].to == edges[i - 1].to ? run + 1 : 1;
+    *count += run == 2;
+  }
+  return {};
+}
+
+// Curve vertices whose normal points away from the side that the surface shows.
+static Status count_opposed(Context& context, const Surface& surface, uint32_t* opposed,
+                            uint32_t* all) {
+  Array<Vec3> normal(context);
+  TRY(normal.resize(surface.position.size()));
+  mesh::vertex_normals(surface.position.span(), surface.triangle.span(), normal.span());
+  *opposed = *all = 0;
+  for (size_t v = 0; v < normal.size(); ++v) {
+    const Vec3& wish = surface.constraint_normal[v];
+    *all += wish != Vec3{};
+    *opposed += dot(wish, normal[v]) < 0.0;
+  }
+  return {};
+}
+
+// What the smoothing changes, to be put back if it leads nowhere.
+static Status smooth_or_restore(Context& context, const mesh::Topology& topology,
+                                Span<const Vec3> offset, smooth::Method method, Surface* surface,
+                                FlowOutcome* outcome) {
+  constexpr size_t k_most_pairs = 1000;
+  Array<Vec3> position(context);
+  Array<uint32_t> triangle(context), pairs(context);
+  TRY(position.copy(surface->position.span()));
+  TRY(triangle.copy(surface->triangle.span()));
+  for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
+  const Status status = smooth_flow_surface(context, topology, method, surface);
+  if (status.ok()) {
+    TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(),
+                             k_most_pairs, &pairs));
+    if (pairs.empty()) {
+      outcome->normals = NormalsUse::used;
+      return {};
+    }
+    outcome->normals = NormalsUse::crossing;
+    outcome->normals_places = static_cast<uint32_t>(pairs.size() / 2);
+  } else {
+    if (status.code != Code::not_positive_definite) return status;
+    outcome->normals = NormalsUse::too_thin;
+  }
+  surface->position = static_cast<Array<Vec3>&&>(position);
+  surface->triangle = static_cast<Array<uint32_t>&&>(triangle);
+  surface->patch_guarded.clear();
+  surface->counts.guarded_patches = 0;
+  surface->counts.residual = 0.0;
+  surface->counts.normal_deviation = {};
+  return {};
+}
+
+// Smooths where the normals can be used; else all is as before, and the outcome says why.
 static Status try_to_smooth(Context& context, const mesh::Topology& topology,
                             Span<const Vec3> offset, smooth::Method method, Surface* surface,
-                            bool* done) {
-  Array<Vec3> before(context);
-  Array<uint32_t> pairs(context);
+                            FlowOutcome* outcome) {
+  constexpr uint32_t k_most_opposed = 10;  // one in so many
+  uint32_t free = 0, opposed = 0, all = 0;
   for (size_t v = 0; v < topology.on_border.size(); ++v) {
-    if (topology.on_border[v] != 0 && surface->vertex_curve[v] == k_none) return {};
+    free += topology.on_border[v] != 0 && surface->vertex_curve[v] == k_none;
   }
-  TRY(before.copy(surface->position.span()));
-  for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
-  TRY(smooth_flow_surface(context, topology, method, surface));
-  TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(), 1, &pairs));
-  *done = pairs.empty();
-  if (!*done) surface->position = static_cast<Array<Vec3>&&>(before);
+  outcome->normals = NormalsUse::free_border;
+  outcome->normals_places = free;
+  if (free > 0) return {};
+  TRY(turn_to_normals(context, topology, surface));
+  TRY(count_opposed(context, *surface, &opposed, &all));
+  outcome->normals = NormalsUse::contradicting;
+  outcome->normals_places = opposed;
+  if (uint64_t{opposed} * k_most_opposed > all) return {};
+  outcome->normals_places = 0;
+  return smooth_or_restore(context, topology, offset, method, surface, outcome);
+}
+
+// Whether the mesh allows the normals to be used.
+static Status judge_mesh(Context& context, const FlowSettings& settings, bool measurable,
+                         const Surface& surface, FlowOutcome* outcome) {
+  if (settings.normal.empty()) {
+    const bool some = settings.bare_curves != k_none;
+    outcome->normals = some ? NormalsUse::incomplete : NormalsUse::none;
+    outcome->normals_places = some ? settings.bare_curves : 0;
+  } else if (!outcome->manifold) {
+    outcome->normals = NormalsUse::not_manifold;
+    return count_branches(surface.triangle.span(), context, &outcome->normals_places);
+  } else if (!measurable) {
+    outcome->normals = NormalsUse::too_thin;
+  }
   return {};
 }
 
@@ -229,14 +319,14 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   const bool measurable =
       outcome->manifold &&
       mesh::check_areas(surface->position.span(), surface->triangle.span()).ok();
-  if (!measurable || settings.normal.empty()) {
-    return measure_flow_surface(context, topology, measurable, surface);
+  TRY(judge_mesh(context, settings, measurable, *surface, outcome));
+  if (outcome->normals == NormalsUse::none && !settings.normal.empty()) {
+    TRY(try_to_smooth(context, topology, offset.span(), settings.method, surface, outcome));
   }
-  TRY(turn_to_normals(context, topology, surface));
-  TRY(try_to_smooth(context, topology, offset.span(), settings.method, surface,
-                    &outcome->smoothed));
-  if (outcome->smoothed) return {};
-  return measure_flow_surface(context, topology, measurable, surface);
+  if (outcome->normals != NormalsUse::used) {
+    TRY(measure_flow_surface(context, topology, measurable, surface));
+  }
+  return measure_given(flow, settings.given, outcome->vertex_of.span(), surface);
 }
 
 }  // namespace wireskin

@@ -2,6 +2,8 @@
 // input, memory, cancelling, scaling.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -46,18 +48,21 @@ Curves cube(double size = 1.0) {
 }
 
 // Three great circles; with the normals of the sphere.
-Curves sphere() {
+Curves sphere(int pieces = 32) {
   Curves net;
-  constexpr int k_pieces = 32;
+  const int half = pieces / 2, quarter = pieces / 4;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> p;
-    for (int i = 0; i < k_pieces; ++i) {
-      const double a = 2.0 * 3.14159265358979323846 * i / k_pieces;
+    for (int i = 0; i < pieces; ++i) {
+      const double a = 2.0 * 3.14159265358979323846 * i / pieces;
       double q[3] = {};
       // Exact where circles meet, so that they coincide.
-      q[axis] = i % 16 == 8 ? 0.0 : i == 0 ? 1.0 : i == 16 ? -1.0 : std::cos(a);
-      q[(axis + 1) % 3] = i % 16 == 0 ? 0.0 : i == 8 ? 1.0 : i == 24 ? -1.0 : std::sin(a);
-      if (i % 16 == 8) q[axis] = 0.0;
+      q[axis] = i % half == quarter ? 0.0 : i == 0 ? 1.0 : i == half ? -1.0 : std::cos(a);
+      q[(axis + 1) % 3] = i % half == 0         ? 0.0
+                          : i == quarter        ? 1.0
+                          : i == half + quarter ? -1.0
+                                                : std::sin(a);
+      if (i % half == quarter) q[axis] = 0.0;
       p.insert(p.end(), q, q + 3);
     }
     net.add(p, true);
@@ -373,4 +378,299 @@ TEST_CASE("Failing memory and cancelling end a call cleanly") {
   CHECK(attempt(&capped, options) == WSK_ERROR_MEMORY_CAP);
   CHECK(capped.clean());
   CHECK(capped.peak_bytes <= 20000 + 4096);
+}
+
+// ---- Noise, normals that cannot be used, voids
+// ---------------------------------------------------
+
+namespace {
+
+// Adds Gaussian noise (a sum of twelve uniform numbers) of the given deviation to every coordinate;
+// samples at the same place move together.
+Curves shaken(Curves net, double sigma) {
+  uint64_t state = 1;
+  const auto uniform = [&]() {
+    state = state * 6364136223846793005ull + 1442695040888963407ull;
+    return double(state >> 11) * 0x1p-53;
+  };
+  std::vector<std::array<double, 6>> moved;
+  for (std::vector<double>& p : net.positions) {
+    for (size_t i = 0; i < p.size(); i += 3) {
+      const std::array<double, 3> at = {p[i], p[i + 1], p[i + 2]};
+      const auto same = std::find_if(moved.begin(), moved.end(), [&](const auto& m) {
+        return m[0] == at[0] && m[1] == at[1] && m[2] == at[2];
+      });
+      if (same != moved.end()) {
+        std::copy(same->begin() + 3, same->end(), p.begin() + std::ptrdiff_t(i));
+        continue;
+      }
+      std::array<double, 6> move = {at[0], at[1], at[2], 0, 0, 0};
+      for (size_t k = 0; k < 3; ++k) {
+        double sum = -6.0;
+        for (int n = 0; n < 12; ++n) sum += uniform();
+        move[3 + k] = p[i + k] = at[k] + sigma * sum;
+      }
+      moved.push_back(move);
+    }
+  }
+  return net;
+}
+
+// Of the surface's vertices from the unit sphere, at the given samples' curves only.
+double curve_error(const Curves& net, const wsk_options& options, wsk_report* report) {
+  Curves copy = net;
+  const std::vector<wsk_curve>& curves = copy.list();
+  wsk_flow* flow = nullptr;
+  wsk_surface* surface = nullptr;
+  wsk_report_init(report, sizeof *report);
+  REQUIRE(wsk_flow_build(curves.data(), curves.size(), &options, nullptr, &flow, report) == WSK_OK);
+  const double noise = report->noise_position;
+  REQUIRE(wsk_flow_surface(flow, &options, nullptr, &surface, report) == WSK_OK);
+  CHECK(report->noise_position == noise);
+  wsk_surface_view view;
+  wsk_surface_get_view(surface, &view, sizeof view);
+  double sum = 0.0;
+  size_t count = 0;
+  for (uint32_t v = 0; v < view.vertex_count; ++v) {
+    if (view.vertex_curve[v] == WSK_NONE) continue;
+    const double* const p = view.positions + 3 * size_t{v};
+    const double off = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1.0;
+    sum += off * off;
+    ++count;
+  }
+  wsk_surface_free(surface);
+  wsk_flow_free(flow);
+  return std::sqrt(sum / double(count));
+}
+
+Curves without_normals(Curves net) {
+  net.normals.clear();
+  return net;
+}
+
+// The great circles in pieces of two samples each, in disorder.
+Curves fragments(const Curves& net) {
+  Curves pieces;
+  for (size_t stride = 0; stride < 2; ++stride) {
+    for (const std::vector<double>& p : net.positions) {
+      for (size_t i = 3 * stride; i < p.size(); i += 6) {
+        const size_t next = i + 3 < p.size() ? i + 3 : 0;
+        pieces.add({p[i], p[i + 1], p[i + 2], p[next], p[next + 1], p[next + 2]});
+      }
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+TEST_CASE("Noise on curves alone is found and taken out, clean curves keep their bits") {
+  const double sigma = 0.01;
+  for (const bool broken : {false, true}) {
+    CAPTURE(broken);
+    const Curves clean = broken ? fragments(sphere(128)) : without_normals(sphere(128));
+    const Curves noisy = shaken(clean, sigma);
+    wsk_options options = plain_options();
+    wsk_report report;
+    options.smoothing = WSK_SMOOTHING_NONE;
+    const double raw = curve_error(noisy, options, &report);
+    CHECK(report.noise_position == 0.0);
+    CHECK(report.constraint_distance_max < 0.05 * 0.02 * 2 * std::sqrt(3.0));
+    options.smoothing = WSK_SMOOTHING_DEFAULT;
+    const double found = curve_error(noisy, options, &report);
+    CHECK(report.noise_position > 0.7 * sigma);
+    CHECK(report.noise_position < 1.3 * sigma);
+    CHECK(report.constraint_distance_rms > 0.5 * sigma);
+    options.smoothing = WSK_SMOOTHING_GIVEN;
+    options.noise = sigma;
+    const double given = curve_error(noisy, options, &report);
+    CHECK(report.noise_position == doctest::Approx(sigma).epsilon(1e-12));
+    CHECK(raw > 0.7 * sigma);
+    CHECK(given < 0.6 * raw);
+    CHECK(found < (broken ? 0.8 : 0.6) * raw);
+    options = plain_options();
+    const Result plain = surface_of(clean, options);
+    options.smoothing = WSK_SMOOTHING_NONE;
+    CHECK(surface_of(clean, options).positions == plain.positions);
+    CHECK(plain.report.noise_position < 1e-4);
+  }
+}
+
+TEST_CASE("Corners stay corners while noise is taken out between them") {
+  // A square of 4 x 20 samples as one closed curve, shaken by a tenth of the spacing.
+  Curves square;
+  std::vector<double> p;
+  for (int side = 0; side < 4; ++side) {
+    for (int i = 0; i < 20; ++i) {
+      const double t = i / 20.0;
+      const double x[4] = {t, 1, 1 - t, 0}, y[4] = {0, t, 1, 1 - t};
+      p.insert(p.end(), {x[side], y[side], 0.0});
+    }
+  }
+  square.add(p, true);
+  const double sigma = 0.005;
+  const Curves noisy = shaken(square, sigma);
+  wsk_report report;
+  wsk_options options = plain_options();
+  wsk_flow* flow = nullptr;
+  Curves copy = noisy;
+  wsk_report_init(&report, sizeof report);
+  REQUIRE(wsk_flow_build(copy.list().data(), 1, &options, nullptr, &flow, &report) == WSK_OK);
+  wsk_surface* surface = nullptr;
+  REQUIRE(wsk_flow_surface(flow, &options, nullptr, &surface, &report) == WSK_OK);
+  CHECK(report.noise_position > 0.6 * sigma);
+  CHECK(report.segments == 4);
+  wsk_surface_view view;
+  wsk_surface_get_view(surface, &view, sizeof view);
+  for (int corner = 0; corner < 4; ++corner) {
+    const double* const c = &square.positions[0][size_t(60 * corner)];
+    double least = 1.0;
+    for (uint32_t v = 0; v < view.vertex_count; ++v) {
+      const double* const q = view.positions + 3 * size_t{v};
+      least = std::fmin(least, std::hypot(q[0] - c[0], std::hypot(q[1] - c[1], q[2] - c[2])));
+    }
+    CHECK(least < 4 * sigma);
+  }
+  wsk_surface_free(surface);
+  wsk_flow_free(flow);
+  // Without noise nothing moves, however coarse and angular the curve is.
+  Curves stairs;
+  std::vector<double> steps;
+  for (int i = 0; i < 12; ++i)
+    steps.insert(steps.end(), {i / 12.0, i / 12.0, 0, (i + 1) / 12.0, i / 12.0, 0});
+  steps.insert(steps.end(), {0.0, 1.0, 0.0});
+  stairs.add(steps, true);
+  const Result stepped = surface_of(stairs);
+  options.smoothing = WSK_SMOOTHING_NONE;
+  CHECK(surface_of(stairs, options).positions == stepped.positions);
+  CHECK(stepped.report.constraint_distance_max == 0.0);
+}
+
+TEST_CASE("Given samples lie within a twentieth of the sampling, junctions are vertices") {
+  const Curves net = without_normals(sphere());  // 32 samples a circle
+  wsk_flow_options wish = flow_defaults();
+  wsk_options options = plain_options();
+  options.smoothing = WSK_SMOOTHING_NONE;
+  for (const double sampling : {0.05, 0.1, 0.2, 0.4, 0.7}) {
+    CAPTURE(sampling);
+    wish.sampling = sampling;
+    const Result r = surface_of(net, options, wish);
+    REQUIRE(r.made == WSK_OK);
+    CHECK(r.report.constraint_distance_max <= 0.05 * sampling);
+    for (const std::vector<double>& p : net.positions) {
+      for (size_t i = 0; i < p.size(); i += 24 * p.size() / 96) {  // where circles cross
+        bool kept = false;
+        for (size_t v = 0; v < r.positions.size(); v += 3) {
+          kept = kept || std::memcmp(&r.positions[v], &p[i], 24) == 0;
+        }
+        CHECK(kept);
+      }
+    }
+  }
+}
+
+TEST_CASE("Soft curves are refused, by name") {
+  wsk_options options = plain_options();
+  options.soft = 0.1;
+  Result r = surface_of(cube(), options);
+  CHECK(r.built == WSK_ERROR_BAD_ARGUMENT);
+  CHECK(std::strstr(r.first.sentence, "soft") != nullptr);
+  Curves net = cube();
+  net.list();
+  net.curves[5].soft = 0.1;
+  r = surface_of(net);
+  CHECK(r.built == WSK_ERROR_BAD_ARGUMENT);
+  CHECK(r.first.curve == 5);
+  options = plain_options();
+  options.noise = 5.0;
+  options.smoothing = WSK_SMOOTHING_GIVEN;
+  CHECK(surface_of(without_normals(sphere()), options).built == WSK_ERROR_BAD_ARGUMENT);
+}
+
+TEST_CASE("Why normals were not used is said") {
+  wsk_options options = plain_options();
+  options.spacing = 0.1;
+  Result r = surface_of(sphere(), options);
+  CHECK(r.view.normals == WSK_FLOW_NORMALS_USED);
+  CHECK(std::strlen(r.view.normals_sentence) == 0);
+  r = surface_of(without_normals(sphere()), options);
+  CHECK(r.view.normals == WSK_FLOW_NORMALS_NONE);
+  CHECK(std::strlen(r.view.normals_sentence) == 0);
+
+  Curves some = sphere();
+  some.list();
+  some.curves[1].sharp = 1;
+  r = surface_of(some, options);
+  CHECK(r.view.normals == WSK_FLOW_NORMALS_INCOMPLETE);
+  CHECK(r.view.normals_places == 1);
+  CHECK(std::strlen(r.view.normals_sentence) > 0);
+
+  Curves contrary = sphere();  // every other normal inward
+  for (std::vector<double>& n : contrary.normals) {
+    for (size_t i = 0; i < n.size(); ++i) n[i] = (i / 3) % 2 == 0 ? n[i] : -n[i];
+  }
+  r = surface_of(contrary, options);
+  CHECK(r.view.normals == WSK_FLOW_NORMALS_CONTRADICTING);
+  CHECK(r.view.normals_places > 10);
+  CHECK(r.view.smoothed == 0);
+  const Result bare = surface_of(without_normals(sphere()), options);
+  CHECK(r.positions.size() == bare.positions.size());
+
+  // Two cubes with a wall between: three patches meet at its curves.
+  Curves walls = cube();
+  for (const std::vector<double>& p : cube().positions) {
+    if (p[0] == 1.0 && p[3] == 1.0) continue;
+    std::vector<double> q = p;
+    q[0] = 2.0 - q[0], q[3] = 2.0 - q[3];
+    walls.add(q);
+  }
+  for (const std::vector<double>& p : walls.positions) {
+    std::vector<double> n(p);
+    for (size_t i = 0; i < n.size(); ++i) n[i] -= i % 3 == 0 ? 1.0 : 0.5;
+    for (size_t i = 0; i < n.size(); i += 3) n[i] += n[i] == 0.0 ? 0.1 : 0.0;
+    walls.normals.push_back(n);
+  }
+  r = surface_of(walls, options);
+  REQUIRE(r.made == WSK_OK);
+  CHECK(r.view.manifold == 0);
+  CHECK(r.view.normals == WSK_FLOW_NORMALS_NOT_MANIFOLD);
+  CHECK(r.view.normals_places >= 4);
+}
+
+TEST_CASE("A point may lack its normal where the curves have theirs") {
+  Curves net = sphere();
+  const double s = 1.0 / std::sqrt(3.0);
+  net.add({s, s, s});
+  net.list();
+  wsk_options options = plain_options();
+  options.spacing = 0.1;
+  std::vector<wsk_curve> curves = net.curves;
+  for (size_t c = 0; c < 3; ++c) {
+    curves[c].positions = net.positions[c].data();
+    curves[c].normals = net.normals[c].data();
+  }
+  curves[3].positions = net.positions[3].data();
+  curves[3].normals = nullptr;
+  wsk_flow* flow = nullptr;
+  wsk_surface* surface = nullptr;
+  REQUIRE(wsk_flow_build(curves.data(), 4, &options, nullptr, &flow, nullptr) == WSK_OK);
+  REQUIRE(wsk_flow_surface(flow, &options, nullptr, &surface, nullptr) == WSK_OK);
+  wsk_flow_view view;
+  wsk_flow_get_view(flow, &view, sizeof view);
+  CHECK(view.normals == WSK_FLOW_NORMALS_USED);
+  wsk_surface_free(surface);
+  wsk_flow_free(flow);
+}
+
+TEST_CASE("How many voids are caged is said") {
+  wsk_flow_options wish = flow_defaults();
+  CHECK(surface_of(cube()).view.caged_count == 1);
+  wish.voids = 0;
+  CHECK(surface_of(cube(), plain_options(), wish).view.caged_count == 0);
+  wish.voids = 1;
+  CHECK(surface_of(cube(), plain_options(), wish).view.caged_count == 1);
+  wish.voids = 1000;
+  const Result many = surface_of(cube(), plain_options(), wish);
+  CHECK(many.view.caged_count < 1000);
+  CHECK(many.view.betti[2] <= many.view.caged_count);
 }

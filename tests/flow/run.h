@@ -5,6 +5,7 @@
 #include "flow/independent.h"
 #include "flow/networks.h"
 #include "flow/remesh.h"
+#include "surface/flow_noise.h"
 
 namespace flow_tests {
 
@@ -14,6 +15,7 @@ struct RunOptions {
   int32_t voids = -1;
   bool open_walls = false;
   bool remesh = true;
+  wireskin::network::SmoothingOptions smoothing = {wireskin::network::Noise::none, 0.0};
 };
 
 struct Run {
@@ -25,7 +27,7 @@ struct Run {
   double area = 0.0, ratio = 0.0;
   std::vector<Vec3> position, raw_position;
   std::vector<Corners> triangle, raw_triangle;
-  std::vector<uint32_t> patch;
+  std::vector<uint32_t> patch, raw_patch;
   std::vector<Pair> segment;
   std::vector<double> areas;
 };
@@ -51,7 +53,10 @@ inline double diagonal_of(const Net& net) {
 inline Run run(const Net& net, const RunOptions& options = {}) {
   using namespace wireskin;
   unit::Heap heap;
-  const NetArrays arrays(net);
+  NetArrays arrays(net);
+  network::SmoothingReport noise;
+  unit::must(smooth_polylines(heap.context, arrays.view(), options.smoothing,
+                              {arrays.position.data(), arrays.position.size()}, {}, &noise));
   flow::Flow made(heap.context);
   flow::FlowOptions flow_options;
   flow_options.sampling = options.eps * diagonal_of(net);
@@ -86,6 +91,7 @@ inline Run run(const Net& net, const RunOptions& options = {}) {
   }
   r.raw_position = unit::to_vector(raw.position);
   r.raw_triangle = corners_of(raw.triangle);
+  r.raw_patch = unit::to_vector(raw.patch);
   r.position = unit::to_vector(mesh.position);
   r.triangle = corners_of(mesh.triangle);
   r.patch = unit::to_vector(mesh.patch);

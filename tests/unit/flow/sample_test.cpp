@@ -103,3 +103,35 @@ TEST_CASE("A point close to a curve makes its segment split") {
   CHECK(s.arcs.point.size() == 1);
   check_gabriel(s);
 }
+
+TEST_CASE("Given points lie near the segments, however the curve turns") {
+  for (const int pieces : {7, 12, 20, 50, 400}) {
+    for (const double step : {0.05, 0.2, 0.6}) {
+      CAPTURE(pieces);
+      CAPTURE(step);
+      // A wave on a circle, its turns below and above 35 degrees.
+      Net net;
+      std::vector<uint32_t> curve;
+      for (int i = 0; i < pieces; ++i) {
+        const double a = 2 * k_pi * i / pieces;
+        const double r = 1.0 + 0.1 * std::sin(9.0 * a);
+        curve.push_back(net.add({r * std::cos(a), r * std::sin(a), 0.1 * std::cos(5.0 * a)}));
+      }
+      curve.push_back(curve.front());
+      net.curve.push_back(curve);
+      Sampled s(net, step);
+      for (uint32_t a = 0; a < s.arcs.size(); ++a) {
+        uint32_t i = s.samples.start[a];
+        for (uint32_t k = s.arcs.start[a]; k < s.arcs.start[a + 1]; ++k) {
+          while (i + 2 < s.samples.start[a + 1] && s.samples.along[i + 1] < s.arcs.along[k]) ++i;
+          const Vec3 p = s.arcs.vertex[s.arcs.path[k]];
+          const Vec3 b = s.samples.position[s.samples.at[i]];
+          const Vec3 d = s.samples.position[s.samples.at[i + 1]] - b;
+          const double t = std::fmax(0.0, std::fmin(1.0, dot(p - b, d) / dot(d, d)));
+          CHECK(length(p - b - t * d) <= k_given_distance * step * (1 + 1e-9));
+        }
+      }
+      check_gabriel(s);
+    }
+  }
+}
