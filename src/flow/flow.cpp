@@ -1,5 +1,6 @@
 #include "flow/flow.h"
 
+#include "flow/loose_walls.h"
 #include "num/minmax.h"
 
 namespace wireskin::flow {
@@ -18,7 +19,9 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   TRY(context.enter(Stage::network));
   TRY(build_complex(context, flow->samples.position.span(), options.complex, &flow->complex));
   TRY(find_curve_edges(flow->complex, flow->samples, &flow->curves));
-  return find_persistence(context, flow->complex, &flow->persistence);
+  Array<uint8_t> loose(context);
+  return find_persistence_of_faces(context, flow->complex, flow->samples, flow->curves,
+                                   &flow->flatness, &flow->persistence, &loose);
 }
 
 // Components of walls and curves, counted over all samples.
@@ -74,8 +77,8 @@ static Status count_reconstruction(Context& context, const Flow& flow, Reconstru
 Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptions& options,
                    Reconstruction* result) {
   TRY(context.enter(Stage::patches));
-  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.persistence, options.topology,
-                           &result->topology));
+  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.flatness.span(),
+                           flow.persistence, options.topology, &result->topology));
   TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.persistence, flow.tangents,
                         options.thicken, &result->topology));
   TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.persistence,

@@ -7,6 +7,7 @@
 // version of it: U. Bauer, F. Roll, "Wrapping Cycles in Delaunay Complexes", 2024.
 #pragma once
 
+#include "flow/flat_faces.h"
 #include "flow/patches.h"
 #include "flow/thicken.h"
 
@@ -28,6 +29,7 @@ struct Flow {
   Samples samples;
   Complex complex;
   CurveEdges curves;
+  Array<Flatness> flatness;  // of each triangle of the complex
   Persistence persistence;
   SampleTangents tangents;
 
@@ -36,6 +38,7 @@ struct Flow {
         samples(context),
         complex(context),
         curves(context),
+        flatness(context),
         persistence(context),
         tangents(context) {}
 };

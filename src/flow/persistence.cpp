@@ -43,13 +43,15 @@ static uint64_t descending_bits(double value) {
   return ~bits;
 }
 
-// By decreasing value, then number.
-static Status sort_triangles(Context& context, const Complex& complex, Array<BitsKey>* keys) {
+// By decreasing value, then number; loose ones, whose first bit is cleared, before all others.
+static Status sort_triangles(Context& context, const Complex& complex, Span<const uint8_t> loose,
+                             Array<BitsKey>* keys) {
   const uint32_t count = complex.triangle_count();
   TRY(keys->resize(count));
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t t = count - 1 - i;
-    (*keys)[i] = {descending_bits(complex.triangle_value[t]), t};
+    const uint64_t bits = descending_bits(complex.triangle_value[t]);
+    (*keys)[i] = {!loose.empty() && loose[t] != 0 ? bits & ~(uint64_t{1} << 63) : bits, t};
   }
   return radix_sort(context, keys);
 }
@@ -60,16 +62,17 @@ static Void describe_void(const Complex& complex, uint32_t creator, uint32_t max
   const double filling = smaller(complex.tet_value[maximum], cap);
   const double capped = smaller(f, cap);
   const double ratio = capped > 0.0 ? std::sqrt(filling / capped) : 1.0;
-  return {creator, maximum, std::sqrt(f), std::sqrt(filling), ratio};
+  return {creator, maximum, std::sqrt(f), std::sqrt(filling), ratio, false};
 }
 
 static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
-                         Persistence* persistence) {
+                         Span<const uint8_t> loose, Persistence* persistence) {
   Array<Void>& voids = persistence->voids;
   voids.clear();
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (maximum_of[t] == k_none) continue;
-    const Void one = describe_void(complex, t, maximum_of[t]);
+    Void one = describe_void(complex, t, maximum_of[t]);
+    one.loose = !loose.empty() && loose[t] != 0;
     if (one.ratio > k_least_ratio) TRY(voids.push(one));
   }
   sort(voids.span(), [](const Void& a, const Void& b) {
@@ -80,13 +83,14 @@ static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of
   return {};
 }
 
-Status find_persistence(Context& context, const Complex& complex, Persistence* persistence) {
+Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
+                        Span<const uint8_t> loose) {
   constexpr size_t k_triangles_per_checkpoint = 1u << 16;
   const uint32_t outside = complex.tet_count();
   Array<BitsKey> keys(context);
   Array<uint32_t> maximum_of(context);
   VoidForest voids(context);
-  TRY(sort_triangles(context, complex, &keys));
+  TRY(sort_triangles(context, complex, loose, &keys));
   TRY(maximum_of.assign(complex.triangle_count(), k_none));
   TRY(persistence->creator.assign(complex.triangle_count(), 0));
   TRY(voids.parent.resize(outside + 1));
@@ -105,7 +109,7 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
     maximum_of[t] = voids.maximum[low];
     voids.parent[low] = high;
   }
-  return list_voids(complex, maximum_of.span(), persistence);
+  return list_voids(complex, maximum_of.span(), loose, persistence);
 }
 
 }  // namespace wireskin::flow

@@ -20,6 +20,7 @@ struct Void {
   double filling;    // radius at which the maximum fills it: sqrt F, capped
   double ratio;  // filling / creation with both capped at sqrt(3/8) diagonal, the largest that a
                  // true maximum can have (H. Jung, 1901)
+  bool loose;    // the creator lies in a loose wall
 };
 
 struct Persistence {
@@ -30,6 +31,9 @@ struct Persistence {
   Array<Void> voids;        // ratio > 1 + 1e-6, by decreasing ratio, then creator
 };
 
-Status find_persistence(Context& context, const Complex& complex, Persistence* persistence);
+// Triangles marked `loose`, if any are, are passed before all others, so that what they part counts
+// as one void (loose_walls.h).
+Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
+                        Span<const uint8_t> loose = {});
 
 }  // namespace wireskin::flow

@@ -190,7 +190,8 @@ static Status find_cells(Context& context, const Complex& complex, const CurveEd
                          const Topology3& topology, Cells* cells) {
   TRY(start_sheet(complex, &cells->sheet));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0 || persistence.void_of[t] != k_none) {
+    const uint32_t v = persistence.void_of[t];
+    if (persistence.creator[t] == 0 || (v != k_none && !persistence.voids[v].loose)) {
       add_to_sheet(complex, t, &cells->sheet);
     }
   }

@@ -7,6 +7,10 @@ namespace wireskin::flow {
 static constexpr uint32_t k_most_tries = 200;
 // Of a wall's border that may lie off the curves.
 static constexpr double k_loose_share = 0.1;
+// Above the noise of rounding, for a void behind a polygon; and its volume, of the power 3/2 of the
+// polygon's area: two sheets in one plane are none.
+static constexpr double k_least_polygon_ratio = 1.0005;
+static constexpr double k_least_polygon_volume = 1e-3;
 
 static uint32_t side_of(const Complex& complex, uint32_t triangle, uint32_t side) {
   const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
@@ -125,6 +129,19 @@ struct VoidTrial {
 
 }  // namespace
 
+// The destroyers and the walls of the voids chosen.
+static Status start_trial(const Complex& complex, const Persistence& persistence,
+                          Span<const uint32_t> chosen, VoidTrial* trial) {
+  TRY(start_sheet(complex, &trial->all));
+  TRY(trial->mark.assign(complex.triangle_count(), k_none));
+  TRY(trial->odd.assign(complex.edge_count(), 0));
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial->all);
+  }
+  for (const uint32_t v : chosen) add_to_sheet(complex, persistence.voids[v].creator, &trial->all);
+  return {};
+}
+
 enum class Verdict : uint8_t { accepted, unbounded, gone };
 
 // Whether the creator's wall holds, together with those chosen before.
@@ -143,23 +160,91 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_
   return {};
 }
 
+// The volume of a room, and the area of a wall.
+static double room_volume(const Complex& complex, Span<const uint32_t> label, uint32_t room) {
+  double six = 0.0;
+  for (uint32_t i = 0; i < complex.tet_count(); ++i) {
+    if (label[i] != room) continue;
+    const uint32_t* const v = &complex.tet[4 * size_t{i}];
+    const Vec3& a = complex.point[v[0]];
+    six += dot(complex.point[v[1]] - a,
+               cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
+  }
+  return six / 6.0;
+}
+
+static double wall_area(const Complex& complex, Span<const uint32_t> wall) {
+  double twice = 0.0;
+  for (const uint32_t t : wall) {
+    const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+    const Vec3& a = complex.point[v[0]];
+    twice += length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
+  }
+  return 0.5 * twice;
+}
+
+// Whether the wall tried last keeps the outside from a room worth the name.
+static Status closes_room(const Complex& complex, const VoidTrial& trial, uint32_t creator,
+                          bool* closes) {
+  Array<uint32_t> label(trial.mark.context());
+  TRY(label_rooms(complex, trial.peeled, &label));
+  const uint32_t outside = label[complex.tet_count()];
+  const uint32_t a = label[side_of(complex, creator, 0)], b = label[side_of(complex, creator, 1)];
+  *closes = false;
+  if (a == b || (a != outside && b != outside)) return {};
+  const double area = wall_area(complex, trial.wall.span());
+  const double volume = room_volume(complex, label.span(), a == outside ? b : a);
+  *closes = volume > k_least_polygon_volume * area * std::sqrt(area);
+  return {};
+}
+
+static bool among(Span<const uint32_t> list, uint32_t i) {
+  for (const uint32_t other : list) {
+    if (other == i) return true;
+  }
+  return false;
+}
+
+// A polygon is a face, however wide open a room would be without it: pyramids and plates are hardly
+// narrower at the base than within. Only towards the outside: within, such a face is no wall.
+static Status close_polygons(Context& context, const Complex& complex, const CurveEdges& curves,
+                             Span<const Flatness> flatness, const Persistence& persistence,
+                             Array<uint32_t>* chosen) {
+  VoidTrial trial(context);
+  uint32_t tries = 0;
+  for (uint32_t i = 0; i < persistence.voids.size() && tries < k_most_tries; ++i) {
+    const Void& v = persistence.voids[i];
+    if (v.ratio < k_least_polygon_ratio) break;
+    if (v.loose || flatness[v.creator] != Flatness::polygon || among(chosen->span(), i)) continue;
+    if (tries++ == 0) TRY(start_trial(complex, persistence, chosen->span(), &trial));
+    TRY(context.checkpoint());
+    Verdict verdict = Verdict::gone;
+    bool closes = false;
+    TRY(try_void(complex, curves, v.creator, i, &trial, &verdict));
+    if (verdict == Verdict::accepted) TRY(closes_room(complex, trial, v.creator, &closes));
+    if (!closes) continue;
+    add_to_sheet(complex, v.creator, &trial.all);
+    TRY(chosen->push(i));
+  }
+  return {};
+}
+
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    const Persistence& persistence, const TopologyOptions& options,
-                    Array<uint32_t>* chosen) {
+                    Span<const Flatness> flatness, const Persistence& persistence,
+                    const TopologyOptions& options, Array<uint32_t>* chosen) {
   const bool automatic = options.voids < 0;
   const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
   VoidTrial trial(context);
   Array<uint32_t> unbounded(context);
-  TRY(start_sheet(complex, &trial.all));
-  TRY(trial.mark.assign(complex.triangle_count(), k_none));
-  TRY(trial.odd.assign(complex.edge_count(), 0));
   chosen->clear();
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial.all);
-  }
+  TRY(start_trial(complex, persistence, {}, &trial));
   for (uint32_t i = 0; i < persistence.voids.size() && i < k_most_tries; ++i) {
     if (automatic && persistence.voids[i].ratio < options.least_ratio) break;
     if (chosen->size() == wished) break;
+    if (persistence.voids[i].loose) {
+      TRY(unbounded.push(i));
+      continue;
+    }
     TRY(context.checkpoint());
     const uint32_t creator = persistence.voids[i].creator;
     Verdict verdict = Verdict::gone;
@@ -169,7 +254,12 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
     add_to_sheet(complex, creator, &trial.all);
     TRY(chosen->push(i));
   }
-  if (automatic) cut_at_gap(persistence, chosen);
+  if (automatic) {
+    cut_at_gap(persistence, chosen);
+    if (!flatness.empty()) {
+      TRY(close_polygons(context, complex, curves, flatness, persistence, chosen));
+    }
+  }
   // Who asks for a number gets it as far as anything is caged at all.
   for (size_t k = 0; !automatic && k < unbounded.size() && chosen->size() < wished; ++k) {
     TRY(chosen->push(unbounded[k]));
@@ -253,9 +343,9 @@ static Status remove_open_walls(Context& context, const Complex& complex, const 
 }
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            const Persistence& persistence, const TopologyOptions& options,
-                            Topology3* topology) {
-  TRY(choose_voids(context, complex, curves, persistence, options, &topology->chosen));
+                            Span<const Flatness> flatness, const Persistence& persistence,
+                            const TopologyOptions& options, Topology3* topology) {
+  TRY(choose_voids(context, complex, curves, flatness, persistence, options, &topology->chosen));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {

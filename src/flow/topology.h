@@ -11,6 +11,7 @@
 // Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3 and figure 13.
 #pragma once
 
+#include "flow/flat_faces.h"
 #include "flow/persistence.h"
 #include "flow/sheet.h"
 
@@ -38,12 +39,13 @@ struct Topology3 {
 // outside is the last entry. Labels are least members.
 Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* label);
 
+// `flatness` is empty where flat faces are nothing special.
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    const Persistence& persistence, const TopologyOptions& options,
-                    Array<uint32_t>* chosen);
+                    Span<const Flatness> flatness, const Persistence& persistence,
+                    const TopologyOptions& options, Array<uint32_t>* chosen);
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            const Persistence& persistence, const TopologyOptions& options,
-                            Topology3* topology);
+                            Span<const Flatness> flatness, const Persistence& persistence,
+                            const TopologyOptions& options, Topology3* topology);
 
 }  // namespace wireskin::flow
