@@ -53,6 +53,25 @@ static std::string flow_line(const wsk_flow_view& view) {
          (view.smoothed != 0 ? "; shaped by the normals" : "") + "\n";
 }
 
+// Stretches of curve that became one or two edges show nothing of their shape.
+static std::string spacing_line(const wsk_surface_view& surface, const wsk_report& report) {
+  if (surface.curve_edge_count >= 3 * uint64_t{report.segments} || report.spacing == 0.0) return "";
+  char spacing[32];
+  std::snprintf(spacing, sizeof spacing, "%.3g", report.spacing);
+  return "the spacing, " + std::string(spacing) +
+         ", is coarse for these curves: " + counted(surface.curve_edge_count, "edge", "edges") +
+         " on " + counted(report.segments, "stretch", "stretches") +
+         " between nodes; --spacing LENGTH makes it finer\n";
+}
+
+std::string ignored_columns(const Network& network) {
+  std::string list;
+  for (const std::string& name : network.ignored_columns) {
+    list += (list.empty() ? "" : ", ") + in_quotes(name);
+  }
+  return list;
+}
+
 std::string summary(const Arguments& arguments, const Network& network, const BuildResult& result,
                     double seconds) {
   wsk_surface_view surface;
@@ -68,6 +87,11 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
     text += counted(failed, "patch was", "patches were") + " left out, the report says why\n";
   }
   if (result.flow != nullptr) text += flow_line(result.flow->view);
+  text += spacing_line(surface, result.report);
+  if (!network.ignored_columns.empty()) {
+    text +=
+        "columns passed over, their names mean nothing here: " + ignored_columns(network) + "\n";
+  }
   for (const IdleOption& option : idle_options(arguments, network, result)) {
     text += option.name + " had no effect: " + option.reason + "\n";
   }

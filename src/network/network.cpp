@@ -147,9 +147,11 @@ static Status sort_round_node(const Graph& graph, uint32_t node, Span<Leaving> l
     });
     if (all_differ(leaving)) return {};
   }
-  return fail_at_node(Code::inconsistent_normals,
-                      "two curves leave the node in the same direction, seen along its normal",
-                      graph, node, leaving[0].half_segment);
+  return fail_at_node(
+      Code::inconsistent_normals,
+      "two curves leave the node in the same direction, seen along its normal: is one of them "
+      "given twice?",
+      graph, node, leaving[0].half_segment);
 }
 
 // Coming into a node along h, the way goes on clockwise of where it came from.
