@@ -1,5 +1,6 @@
 #include "summary.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "scan.h"
@@ -41,6 +42,8 @@ std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& 
   check("--orient", !network.raw_curves.empty(), "measured curves are taken as they are");
   check("--snap", !network.raw_curves.empty(), "measured curves meet where their nodes say so");
   check("--up", arguments.image.empty() && arguments.html.empty(), "it is for --image and --html");
+  check("--format", std::count(arguments.outputs.begin(), arguments.outputs.end(), "-") == 0,
+        "it is for -o -");
   return idle;
 }
 

@@ -448,6 +448,9 @@ TEST_CASE("the summary: every output, what was made, what did nothing") {
   const std::string report = read_file(folder / "r.json");
   CHECK(report.find("\"outputs\": [\"a.obj\", \"b.stl\"]") != std::string::npos);
   CHECK(report.find("\"idle_options\": [\"--voids\", \"--up\"]") != std::string::npos);
+  CHECK(run(folder, "ring.obj -o a.obj --format stl")
+            .out.find("\n--format had no effect: it is "
+                      "for -o -\n") != std::string::npos);
   r = run(folder, "ring.obj -o a.obj --soft 0.1");
   CHECK(one_line(r.out));
 }
