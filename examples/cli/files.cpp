@@ -47,6 +47,13 @@ static std::FILE* open_temporary(const std::string& target, std::string* name) {
   return file;
 }
 
+void OutputFiles::check_folder(const std::string& target) {
+  const fs::path folder = fs::path(target).parent_path();
+  std::error_code ignored;
+  if (target.empty() || target == "-" || folder.empty()) return;
+  if (!fs::is_directory(folder, ignored)) fail_writing(target, ENOENT);
+}
+
 void OutputFiles::add(const std::string& target, std::string_view bytes) {
   if (target == "-") {
     standard_output_.append(bytes);

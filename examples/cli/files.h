@@ -22,6 +22,8 @@ class OutputFiles {
   OutputFiles& operator=(const OutputFiles&) = delete;
   ~OutputFiles();
 
+  // Fails if the target's folder is not there: before the work rather than after it.
+  static void check_folder(const std::string& target);
   // Writes the bytes under a temporary name.
   void add(const std::string& target, std::string_view bytes);
   // Gives every file its name.

@@ -123,6 +123,31 @@ Format format_of(const std::string& path, std::string_view bytes) {
   return named == Format::table ? seen : named;
 }
 
+const char* foreign_kind(std::string_view bytes) {
+  struct Kind {
+    std::string_view start;
+    const char* sentence;
+  };
+  static constexpr Kind k_kinds[] = {
+      {"\x1f\x8b", "this is packed by gzip: unpack it first"},
+      {"PK\x03\x04", "this is a zip archive or a spreadsheet: unpack it, or save it as CSV"},
+      {"\xD0\xCF\x11\xE0", "this is an old spreadsheet: save it as CSV"},
+      {"3D Geometry File Format", "this is a Rhino file: export the curves as OBJ"},
+      {"BLENDER", "this is a Blender file: export the curves as OBJ"},
+      {"Kaydara FBX", "this is an FBX file: export the curves as OBJ"},
+      {"ISO-10303-21", "this is a STEP file: export the curves as OBJ"},
+      {"solid ", "this is an STL mesh: it holds triangles, and curves are needed"},
+      {"<svg", "this is an SVG drawing: curves in space are needed, as OBJ or a table"},
+      {"<?xml", "this is XML: curves are needed as OBJ, PLY or a table"},
+      {"<!DOCTYPE", "this is a web page: curves are needed as OBJ, PLY or a table"},
+      {"{", "this is JSON: curves are needed as OBJ, PLY or a table"},
+  };
+  for (const Kind& kind : k_kinds) {
+    if (bytes.substr(0, kind.start.size()) == kind.start) return kind.sentence;
+  }
+  return nullptr;
+}
+
 std::string known_extensions() {
   std::string list;
   for (const Extension& known : k_extensions)

@@ -28,6 +28,10 @@ Format format_of_content(std::string_view bytes);
 // keyword; between the two kinds the content does.
 Format format_of(const std::string& path, std::string_view bytes);
 
+// What a file of another kind is, told by its first bytes, and what to do with it: "this is packed
+// by gzip: unpack it first"; null where nothing is recognised.
+const char* foreign_kind(std::string_view bytes);
+
 // ".net, .rawnet, ..." for messages.
 std::string known_extensions();
 

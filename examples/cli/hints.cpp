@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "summary.h"
+
 namespace wireskin_cli {
 
 struct Reach {
@@ -63,10 +65,10 @@ static std::string orient_hint(const Arguments& arguments, const wsk_report& rep
                           : "; try --orient";
 }
 
-std::string failure_hint(const Arguments& arguments, const Network& network,
-                         const BuildResult& result) {
+// What the sentence of the library says, in terms of files and options.
+static std::string remedy(const Arguments& arguments, const Network& network,
+                          const BuildResult& result) {
   const wsk_report& report = result.report;
-  if (report.status == WSK_ERROR_CANCELLED) return "";
   const Reach reach = reach_of(network);
   if (report.status == WSK_ERROR_MISSING_NORMALS && network.normals.empty()) {
     return "; the file gives no normals at all: --topology flow needs none";
@@ -86,10 +88,21 @@ std::string failure_hint(const Arguments& arguments, const Network& network,
            " of curves meet no other curve: --snap LENGTH joins what misses by less, and the "
            "report lists what was joined";
   }
+  if (!coarse && speaks_of(report, "tagged as boundary")) {
+    return "; in tables a column boundary tags them, in OBJ a group whose name contains boundary";
+  }
   if (!coarse) return orient_hint(arguments, report);
   return "; the network spans " + short_number(reach.diagonal) + " but lies " +
          short_number(reach.farthest) + " from the origin, where numbers are rounded to about " +
          short_number(rounding) + (speaks_of(report, "origin") ? "" : ": move it to the origin");
+}
+
+std::string failure_hint(const Arguments& arguments, const Network& network,
+                         const BuildResult& result) {
+  if (result.report.status == WSK_ERROR_CANCELLED) return "";
+  const std::string ignored = ignored_columns(network);
+  return remedy(arguments, network, result) +
+         (ignored.empty() ? "" : "; columns passed over: " + ignored);
 }
 
 }  // namespace wireskin_cli

@@ -99,6 +99,9 @@ static void write_outputs(const Arguments& arguments, const Network& network,
 static void run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const Network network = read_input(arguments);
+  for (const std::string& output : arguments.outputs) OutputFiles::check_folder(output);
+  OutputFiles::check_folder(arguments.image);
+  OutputFiles::check_folder(arguments.html);
   catch_signals();  // from here on; while a pipe is read, a signal may simply end the command
   ProgressLine progress(!arguments.quiet);
   BuildResult result = build_surface(network, arguments, progress.callbacks());

@@ -31,9 +31,16 @@ static void number_nodes(Network& network) {
 
 void identify_equal_positions(Network& network) {
   number_nodes(network);
+  const auto same_point = [&network](uint32_t a, uint32_t b) {
+    return network.nodes[a] == network.nodes[b];
+  };
   std::vector<NetworkCurve> curves;
   for (NetworkCurve& curve : network.curves) {
     std::vector<uint32_t>& vertices = curve.vertices;
+    // An instrument that rests gives the same place again and again.
+    if (vertices.size() > 2) {
+      vertices.erase(std::unique(vertices.begin(), vertices.end(), same_point), vertices.end());
+    }
     if (vertices.size() < 2) {
       network.points.insert(network.points.end(), vertices.begin(), vertices.end());
       continue;

@@ -3,7 +3,8 @@
 // Invariants after reading: normals is empty or as long as positions (three numbers a vertex);
 // has_normal, nodes and vertex_lines are empty or have one entry a vertex (vertex_lines always
 // has); every index is below the number of vertices; a closed curve does not repeat its first
-// vertex. Either raw_curves is empty or everything else is.
+// vertex. Either raw_curves is empty or everything else is, the names
+// of columns apart.
 #pragma once
 
 #include <cstddef>
@@ -49,6 +50,7 @@ struct Network {
   // Vertices that the surface is to pass through though no curve does.
   std::vector<uint32_t> points;
   std::vector<RawCurve> raw_curves;
+  std::vector<std::string> ignored_columns;  // of a table: named, but of no meaning here
 
   size_t vertex_count() const { return vertex_lines.size(); }
   bool normal_known(uint32_t vertex) const {
@@ -64,8 +66,8 @@ inline void close_if_first_is_last(NetworkCurve& curve) {
 }
 
 // For files that give coordinates instead of indices: vertices whose coordinates are equal in every
-// bit are the same point, and curves that end where they began are closed. Curves of a single
-// vertex become points.
+// bit are the same point, and curves that end where they began are closed. Of vertices in a row at
+// one point the first stays. Curves of a single vertex become points.
 void identify_equal_positions(Network& network);
 
 // Loops that bound faces, as curves. Where faces share edges a loop a face would give each such

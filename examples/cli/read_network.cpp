@@ -40,6 +40,9 @@ Network read_network(const std::string& path) {
   std::string bytes = load_bytes(path);
   const std::string_view mark = "\xEF\xBB\xBF";
   const size_t skipped = bytes.compare(0, 3, mark) == 0 ? 3 : 0;
+  if (const char* kind = foreign_kind(std::string_view(bytes).substr(skipped))) {
+    throw ReadFailure(k_not_supported, path, 0, kind);
+  }
   const Format format = format_of(path, std::string_view(bytes).substr(skipped));
   if (format == Format::none) require_text(path, bytes);
   if (format == Format::ply) bytes.erase(0, skipped);

@@ -76,7 +76,7 @@ size_t column_named(std::string_view cell) {
       " nx normalx normalsx normals0 xnormal ",
       " ny normaly normalsy normals1 ynormal ",
       " nz normalz normalsz normals2 znormal ",
-      " curve curveid polyline polylineid stroke strokeid line lineid ",
+      " curve curveid polyline polylineid stroke strokeid line lineid kurve courbe ",
       " boundary isboundary ",
       " sharp issharp crease ",
   };
@@ -101,10 +101,13 @@ bool cell_number(std::string_view cell, char separator, double* value) {
 }
 
 void take_header(const LineScanner& scanner, const std::vector<std::string_view>& cells,
-                 TableLayout& layout) {
+                 TableLayout& layout, std::vector<std::string>& ignored) {
   for (size_t i = 0; i < cells.size(); ++i) {
     const size_t column = column_named(cells[i]);
-    if (column == k_column_count) continue;
+    if (column == k_column_count) {
+      ignored.emplace_back(cells[i]);
+      continue;
+    }
     if (layout.place[column] != k_absent) {
       scanner.fail("two columns of the header mean the same, the second is " + in_quotes(cells[i]));
     }
@@ -186,16 +189,17 @@ void take_count(const LineScanner& scanner, std::string_view text, size_t count,
 }
 
 // True if the line was a header.
-bool take_layout(const LineScanner& scanner, std::string_view text, TableLayout& layout) {
+bool take_layout(const LineScanner& scanner, std::string_view text, TableLayout& layout,
+                 std::vector<std::string>& ignored) {
   layout.known = true;
   layout.separator = separator_of(trimmed(scanner.text()));
   const std::vector<std::string_view> cells = cells_of(scanner, layout.separator);
-  double ignored = 0.0;
+  double number = 0.0;
   const bool header = std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) {
-    return cell_number(cell, layout.separator, &ignored);
+    return cell_number(cell, layout.separator, &number);
   });
   if (header) {
-    take_header(scanner, cells, layout);
+    take_header(scanner, cells, layout, ignored);
   } else {
     take_count(scanner, text, cells.size(), layout);
   }
@@ -210,7 +214,8 @@ class TableReader {
   Network read(bool as_points) {
     while (scanner_.next('#')) {
       if (take_title()) continue;
-      if (!layout_.known && take_layout(scanner_, text_, layout_)) continue;
+      if (!layout_.known && take_layout(scanner_, text_, layout_, network_.ignored_columns))
+        continue;
       take_row();
     }
     if (network_.positions.empty()) {

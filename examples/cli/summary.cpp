@@ -1,5 +1,6 @@
 #include "summary.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "scan.h"
@@ -41,6 +42,8 @@ std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& 
   check("--orient", !network.raw_curves.empty(), "measured curves are taken as they are");
   check("--snap", !network.raw_curves.empty(), "measured curves meet where their nodes say so");
   check("--up", arguments.image.empty() && arguments.html.empty(), "it is for --image and --html");
+  check("--format", std::count(arguments.outputs.begin(), arguments.outputs.end(), "-") == 0,
+        "it is for -o -");
   return idle;
 }
 
@@ -61,6 +64,25 @@ static std::string flow_lines(const wsk_flow_view& view, int voids_asked) {
   return text + "\n";
 }
 
+// Stretches of curve that became one or two edges show nothing of their shape.
+static std::string spacing_line(const wsk_surface_view& surface, const wsk_report& report) {
+  if (surface.curve_edge_count >= 3 * uint64_t{report.segments} || report.spacing == 0.0) return "";
+  char spacing[32];
+  std::snprintf(spacing, sizeof spacing, "%.3g", report.spacing);
+  return "the spacing, " + std::string(spacing) +
+         ", is coarse for these curves: " + counted(surface.curve_edge_count, "edge", "edges") +
+         " on " + counted(report.segments, "stretch", "stretches") +
+         " between nodes; --spacing LENGTH makes it finer\n";
+}
+
+std::string ignored_columns(const Network& network) {
+  std::string list;
+  for (const std::string& name : network.ignored_columns) {
+    list += (list.empty() ? "" : ", ") + in_quotes(name);
+  }
+  return list;
+}
+
 std::string summary(const Arguments& arguments, const Network& network, const BuildResult& result,
                     double seconds) {
   wsk_surface_view surface;
@@ -76,6 +98,11 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
     text += counted(failed, "patch was", "patches were") + " left out, the report says why\n";
   }
   if (result.flow != nullptr) text += flow_lines(result.flow->view, arguments.voids);
+  text += spacing_line(surface, result.report);
+  if (!network.ignored_columns.empty()) {
+    text +=
+        "columns passed over, their names mean nothing here: " + ignored_columns(network) + "\n";
+  }
   for (const IdleOption& option : idle_options(arguments, network, result)) {
     text += option.name + " had no effect: " + option.reason + "\n";
   }

@@ -20,6 +20,9 @@ struct IdleOption {
 std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& network,
                                      const BuildResult& result);
 
+// The names of the columns that were passed over, in quotes; "" for none.
+std::string ignored_columns(const Network& network);
+
 // Lines with their ends. `result` holds a surface.
 std::string summary(const Arguments& arguments, const Network& network, const BuildResult& result,
                     double seconds);

@@ -101,7 +101,9 @@ class App {
   }
 
   options() {
-    const words = ["--method", byId("method").value, "--topology", byId("topology").value];
+    const words = ["--topology", byId("topology").value];
+    // The default is not spelled out: the command says so where a method given has no effect.
+    if (byId("method").value !== "fair") words.push("--method", byId("method").value);
     for (const name of ["spacing", "soft", "voids", "snap"]) {
       if (byId(name).value.trim()) words.push(`--${name}`, byId(name).value.trim());
     }

@@ -114,16 +114,18 @@ static EdgesAtPlace edges_at(const EdgeSet& edges, uint32_t edge, double part) {
   return result;
 }
 
+// Whether none of the other edges at the two places come nearer. What differs by rounding only is
+// no nearer: at a sample that lies on the other curve either of its edges could win, and the one
+// that does not own the sample would be dropped.
 static bool is_least(const EdgeSet& edges, uint32_t a, uint32_t b, const ChordApproach& chords) {
-  constexpr double k_rounding = 1e-13;  // lengths are about one
-  const double least = chords.distance * (1.0 - 1e-9) - k_rounding;
+  constexpr double k_rounding = 1e-13;  // the extent is about one
   const EdgesAtPlace at_a = edges_at(edges, a, chords.s), at_b = edges_at(edges, b, chords.t);
   for (uint32_t i = 0; i < at_a.count; ++i) {
     for (uint32_t k = 0; k < at_b.count; ++k) {
       if (i + k == 0) continue;
       const uint32_t e = at_a.edge[i], f = at_b.edge[k];
       if (edges.share_a_sample(e, f)) return false;
-      if (edges.chords(e, f).distance < least) return false;
+      if (edges.chords(e, f).distance < chords.distance * (1.0 - 1e-9) - k_rounding) return false;
     }
   }
   return true;

@@ -122,7 +122,8 @@ static Status sort_round_node(const Graph& graph, uint32_t node, Span<Leaving> l
     if (all_differ(leaving)) return {};
   }
   return fail_at_node(Code::inconsistent_normals,
-                      "two curves leave the node in the same direction, seen along its normal",
+                      "two curves leave the node in the same direction, seen along its normal: is one of "
+                      "them given twice?",
                       graph, node, leaving[0].half_segment);
 }
 

@@ -225,6 +225,22 @@ TEST_CASE("smoothing does not hide normals that contradict each other") {
   CHECK(contradictions >= 3);
 }
 
+TEST_CASE("what fails because the network lies too far from the origin says so") {
+  int failed = 0;
+  for (const double offset : {1e13, 1e14, 1e15, 4e15}) {
+    CAPTURE(offset);
+    const Call call = network_with([&](Scene& scene) {
+      for (Curve& curve : scene.curves) {
+        for (double& x : curve.positions) x += offset;
+      }
+    });
+    if (call.status == WSK_OK) continue;
+    ++failed;
+    CHECK(std::string(call.report.sentence).find("move it to the origin") != std::string::npos);
+  }
+  CHECK(failed >= 1);
+}
+
 TEST_CASE("a normal along a curve of its node") {
   const Call call = network_with([](Scene& scene) {
     // The node +x: circle 0 runs along y there, circle 2 along z.

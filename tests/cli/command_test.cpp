@@ -188,7 +188,9 @@ TEST_CASE("faults of reading end with 1, one line, and no file") {
       {"mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
        "mesh.obj: a mesh of triangles (f) without curves: the curves must be given as l\n"},
       {"other.svg", "<svg/>",
-       "other.svg: the content is of no known format and neither is the extension \".svg\", known "
+       "other.svg: this is an SVG drawing: curves in space are needed, as OBJ or a table\n"},
+      {"other.foo", "hello world\n",
+       "other.foo: the content is of no known format and neither is the extension \".foo\", known "
        "are .obj, .ply, .net, .rawnet, .csv, .tsv, .txt, .dat, .asc, .xyz, .curves, .curve, "
        ".contour, .curf\n"},
   };
@@ -446,8 +448,40 @@ TEST_CASE("the summary: every output, what was made, what did nothing") {
   const std::string report = read_file(folder / "r.json");
   CHECK(report.find("\"outputs\": [\"a.obj\", \"b.stl\"]") != std::string::npos);
   CHECK(report.find("\"idle_options\": [\"--voids\", \"--up\"]") != std::string::npos);
+  CHECK(run(folder, "ring.obj -o a.obj --format stl")
+            .out.find("\n--format had no effect: it is "
+                      "for -o -\n") != std::string::npos);
   r = run(folder, "ring.obj -o a.obj --soft 0.1");
   CHECK(one_line(r.out));
+}
+
+TEST_CASE("the summary: a spacing coarser than the curves, columns that were passed over") {
+  const ScratchFolder folder("command");
+  std::string rows = "x,y,z,w,curve\n";
+  const char* corners[] = {"0,0,0", "1,0,0", "1,1,0", "0,1,0", "0,0,0"};
+  for (int k = 0; k < 4; ++k) {
+    for (int end = 0; end < 2; ++end) {
+      rows += std::string(corners[k + end]) + ",7," + std::to_string(k) + "\n";
+    }
+  }
+  write_file(folder / "square.csv", rows);
+  const Run r = run(folder, "square.csv -o a.obj --spacing 2");
+  CHECK(r.status == 0);
+  CHECK(r.out.find("\ncolumns passed over, their names mean nothing here: \"w\"\n") !=
+        std::string::npos);
+  write_file(folder / "sphere.net", sphere_net(4));
+  const Run coarse = run(folder, "sphere.net -o a.obj --spacing 10 --method stanko");
+  CHECK(
+      coarse.out.find("\nthe spacing, 10, is coarse for these curves: 12 edges on 12 stretches") !=
+      std::string::npos);
+  CHECK(run(folder, "sphere.net -o a.obj --method stanko").out.find("coarse") == std::string::npos);
+}
+
+TEST_CASE("an output folder that is not there is found before the work") {
+  const ScratchFolder folder("command");
+  write_file(folder / "sphere.net", sphere_net(8));
+  const Run r = run(folder, "sphere.net -o missing/s.obj --spacing 1e-5");
+  CHECK(r.err.find("missing/s.obj: cannot be written: ") == 0);
 }
 
 TEST_CASE("a result on the standard output, the summary then on the standard error") {

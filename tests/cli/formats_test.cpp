@@ -13,6 +13,16 @@
 using namespace wireskin_cli;
 using namespace cli_test;
 
+TEST_CASE("files of other kinds are told by their first bytes") {
+  CHECK(std::string(foreign_kind("\x1f\x8b\x08")) == "this is packed by gzip: unpack it first");
+  CHECK(foreign_kind("PK\x03\x04 and so on") != nullptr);
+  CHECK(foreign_kind("ISO-10303-21;\n") != nullptr);
+  CHECK(foreign_kind("solid name\n") != nullptr);
+  for (const char* ours : {"", "v 0 0 0\n", "ply\n", "# 3\n", "3\n0 0 0\n", "x,y,z\n", "PK"}) {
+    CHECK(foreign_kind(ours) == nullptr);
+  }
+}
+
 TEST_CASE("files without or with a wrong extension are known by their content") {
   for (const CorpusFile& file : corpus()) {
     CAPTURE(file.path);

@@ -86,6 +86,18 @@ TEST_CASE("a number of the curve in the first column, without a header") {
   CHECK(german.positions[0] == 0.5);
 }
 
+TEST_CASE(
+    "rows in a row at one place are one sample; names of columns that mean nothing are kept") {
+  const Network network = read_table("f.csv",
+                                     "time,x,y,z,Kurve \xe4,quality\n0,0,0,0,a,9\n1,0,0,0,a,9\n"
+                                     "2,1,0,0,a,8\n3,1,1,0,a,8\n4,1,1,0,a,8\n5,0,0,0,a,8\n"
+                                     "6,0,0,0,a,8\n");
+  REQUIRE(network.curves.size() == 1);
+  CHECK(network.curves[0].closed);
+  CHECK(network.curves[0].vertices == std::vector<uint32_t>{0, 2, 3});
+  CHECK(network.ignored_columns == std::vector<std::string>{"time", "quality"});
+}
+
 TEST_CASE("a fourth column that numbers no curves is not taken for one") {
   CHECK(complaint("0.5,0,0,0.25\n1.5,0,0,0.5\n") ==
         "f.csv:1: 4 columns without a header, neither the first nor the last of which numbers the "

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "num/trig.h"
 #include "support/wire_nets.h"
@@ -42,6 +43,26 @@ TEST_CASE("crossings at samples are found once") {
   CHECK(found[0].a.edge == 4);
   CHECK(found[0].a.part == 0.0);
   CHECK(found[0].b.edge == 9 + 4);
+}
+
+TEST_CASE("a sample that lies on the other line is found whatever its last bits are") {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  for (int round = 0; round < 5000; ++round) {
+    CAPTURE(round);
+    const auto any = [&] { return Vec3{even(random), even(random), even(random)}; };
+    const Vec3 d = wireskin::unit(any()), e = wireskin::unit(any()), crossing = 0.3 * any();
+    if (length(cross(d, e)) < 0.3) continue;
+    WireNet net;
+    const double first = 0.5 + 0.05 * even(random);
+    net.add(line(crossing - first * d, crossing + (1.0 - first) * d, 7));
+    std::vector<Vec3> other;
+    for (int k = -3; k <= 3; ++k) other.push_back(crossing + (k / 6.0) * e);
+    net.add(other);
+    const std::vector<Approach> found = approaches_of(net, 0.02);
+    REQUIRE(!found.empty());
+    CHECK(found[0].distance < 1e-12);
+  }
 }
 
 TEST_CASE("coarse circles that cross between samples meet on their arcs, not their chords") {
