@@ -106,6 +106,9 @@ Status System::analyse() {
   return {};
 }
 
+static constexpr const char* k_no_room =
+    "the memory cap leaves no room for the factor of the system";
+
 // The factor of -L_ff, which no weights change.
 Status System::prepare_iteration() {
   Context& context = weight_.context();
@@ -117,7 +120,9 @@ Status System::prepare_iteration() {
   TRY(factor_.analyse(part, order.span()));
   order.free();
   iterative_ = true;
-  return factor_.factor(part);
+  const Status status = factor_.factor(part);
+  // Where nothing is fixed -L_ff is singular, although penalties make the system itself definite.
+  return status.code == Code::not_positive_definite ? fail(Code::memory_cap, k_no_room) : status;
 }
 
 // y = (L_ff W L_ff)^-1 x, for order 3 (L_ff W L_ff W L_ff)^-1 x up to the sign.
@@ -152,7 +157,7 @@ Status System::iterate(size_t columns) {
                                     &result));
     context.count_iterations(result.iterations);
     if (!(result.residual <= 1e-6)) {
-      return fail(Code::memory_cap, "the memory cap leaves no room for the factor of the system");
+      return fail(Code::memory_cap, k_no_room);
     }
     for (size_t i = 0; i < unknowns_; ++i) block_[columns * i + c] = x[i];
   }
