@@ -144,3 +144,24 @@ TEST_CASE("noise stated larger than the shape is refused") {
   options.noise = 1e3;
   CHECK(watched_scene(scene, options).status == WSK_ERROR_BAD_ARGUMENT);
 }
+
+TEST_CASE("vertices of a caller's mesh may be soft too") {
+  size_t meshes = 0;
+  for (const Scene& scene : all()) {
+    if (scene.way != Way::smooth_mesh) continue;
+    CAPTURE(scene.name);
+    wsk_options options = options_of(scene);
+    options.soft = 0.1;
+    const Call call = watched_scene(scene, options);
+    REQUIRE(call.status == WSK_OK);
+    double moved = 0.0;
+    for (size_t i = 0; i < scene.positions.size(); ++i) {
+      if (scene.constrained[i / 3] == 0) continue;
+      moved = std::fmax(moved, std::fabs(call.result.positions[i] - scene.positions[i]));
+    }
+    CHECK(moved > 0.0);
+    CHECK(moved < options.soft);
+    ++meshes;
+  }
+  CHECK(meshes > 0);
+}

@@ -112,3 +112,28 @@ TEST_CASE("solver: a cap that allows no iteration either is a status") {
     CHECK(refused);
   }
 }
+
+// Where every curve is soft nothing is fixed, and the factor that iterations lean on does not
+// exist.
+TEST_CASE("solver: a memory cap is a cap, also where no vertex is held") {
+  for (const Scene& scene : all()) {
+    if (scene.name != "soft") continue;
+    wsk_options options = options_of(scene);
+    const Call direct = watched_scene(scene, options);
+    REQUIRE(direct.status == WSK_OK);
+    const size_t peak = direct.report.peak_bytes;
+    size_t capped = 0;
+    for (size_t k = 32; k < 64; ++k) {
+      CAPTURE(k);
+      options.memory_cap = peak / 64 * k;
+      const Call call = watched_scene(scene, options);
+      const bool iterative = call.status == WSK_OK && call.report.solver == WSK_SOLVER_ITERATIVE;
+      CHECK((iterative || call.status == WSK_ERROR_MEMORY_CAP));
+      CHECK(call.report.peak_bytes <= options.memory_cap);
+      capped += call.status == WSK_ERROR_MEMORY_CAP;
+    }
+    CHECK(capped > 0);
+    return;
+  }
+  FAIL("the scene is gone");
+}

@@ -1,31 +1,28 @@
 // Whatever the caller's allocator, memory cap or cancel callback does, a call ends with its own
 // status, leaves its outputs alone, gives everything back, and the same call works afterwards.
 //
-// Scenes of two calls (raw curves, sensors, flow) are swept through both. The quick tier tries a
-// sample of the places, spread evenly; WIRESKIN_FULL in the environment all.
+// Scenes of two calls (raw curves, sensors, flow) are swept through both. Which places are tried
+// says support/fault_places.h.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "support/faulty_allocator.h"
 #include "support/scenes.h"
 
+using scenes::FaultPlace;
+using scenes::FaultPlaces;
 using scenes::FaultyAllocator;
 using scenes::Scene;
-
-// Steps through [0, count): all in the full tier, about ten in the quick one.
-static size_t stride_for(size_t count) {
-  if (std::getenv("WIRESKIN_FULL") != nullptr) return 1;
-  return std::max<size_t>(1, count / 10);
-}
 
 struct Cancel {
   size_t calls = 0;
   size_t at = SIZE_MAX;
+  std::vector<uint64_t>* places = nullptr;  // as in FaultyAllocator
 
   static int32_t ask(void* user) {
     Cancel& self = *static_cast<Cancel*>(user);
+    if (self.places != nullptr) self.places->push_back(scenes::running_calls());
     return self.calls++ == self.at;
   }
 };
@@ -68,18 +65,22 @@ static void fail_allocation(const Scene& scene, size_t which, bool from_then) {
 }
 
 TEST_CASE("every allocation may fail") {
+  FaultPlaces places(10);
   for (const Scene& scene : scenes::all()) {
     CAPTURE(scene.name);
+    std::vector<uint64_t> calls;
     Run whole;
+    whole.allocator.places = &calls;
     REQUIRE(whole(scene) == WSK_OK);
     const size_t count = whole.allocator.calls;
     REQUIRE(count > 10);
-    const size_t step = stride_for(count);
-    for (size_t i = 0; i < count; i += step) {
-      CAPTURE(i);
-      fail_allocation(scene, i, false);
-      fail_allocation(scene, i, true);
-      if (i / step % 8 != 0) continue;
+    size_t tried = 0;
+    for (const FaultPlace& place : places.choose(calls)) {
+      CAPTURE(place.index);
+      fail_allocation(scene, place.index, false);
+      if (!place.sampled) continue;
+      fail_allocation(scene, place.index, true);
+      if (tried++ % 8 != 0) continue;
       Run again;
       CHECK(again(scene) == WSK_OK);
       CHECK(again.hash == whole.hash);
@@ -116,7 +117,7 @@ TEST_CASE("the memory cap holds to the byte") {
     CHECK(whole.report.peak_bytes == peak);
 
     std::vector<size_t> caps = {peak - 1, peak, peak + 1};
-    const size_t part = std::getenv("WIRESKIN_FULL") != nullptr ? 16 : 1;
+    const size_t part = scenes::tries_all_places() ? 16 : 1;
     for (size_t cap = 1; cap < 2 * peak; cap += 1 + cap / part) caps.push_back(cap);
     for (const size_t cap : caps) {
       CAPTURE(cap);
@@ -138,19 +139,22 @@ TEST_CASE("the memory cap holds to the byte") {
 }
 
 TEST_CASE("every checkpoint may cancel") {
+  FaultPlaces places(10);
   for (const Scene& scene : scenes::all()) {
     CAPTURE(scene.name);
+    std::vector<uint64_t> calls;
     Run whole;
+    whole.cancel.places = &calls;
     REQUIRE(whole(scene) == WSK_OK);
     const size_t count = whole.cancel.calls;
     REQUIRE(count >=
             WSK_STAGE_COUNT - 3);  // a mesh of the caller's has no curves, network, patches
-    for (size_t i = 0; i < count; i += stride_for(count)) {
-      CAPTURE(i);
+    for (const FaultPlace& place : places.choose(calls)) {
+      CAPTURE(place.index);
       Run run;
-      run.cancel.at = i;
+      run.cancel.at = place.index;
       CHECK(run(scene) == WSK_ERROR_CANCELLED);
-      CHECK(run.cancel.calls == i + 1);  // nobody asks again after the answer
+      CHECK(run.cancel.calls == place.index + 1);  // nobody asks again after the answer
     }
     Run again;
     CHECK(again(scene) == WSK_OK);

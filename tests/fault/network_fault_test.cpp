@@ -1,11 +1,9 @@
 // The same for wsk_connect and wsk_integrate: whatever allocator, cap or cancel callback do, the
 // call ends with its own status, leaves its outputs alone and gives everything back.
-//
-// The quick tier tries a sample of the places, spread evenly; WIRESKIN_FULL in the environment all.
+// Which places are tried says support/fault_places.h.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
 
 #include "support/faulty_allocator.h"
@@ -17,19 +15,16 @@ namespace {
 
 using Make = std::function<wsk_status(const wsk_options&, wsk_network**, wsk_report*)>;
 
-size_t stride_for(size_t count, size_t sample) {
-  if (std::getenv("WIRESKIN_FULL") != nullptr) return 1;
-  return std::max<size_t>(1, count / sample);
-}
-
 struct Trial {
   FaultyAllocator allocator;
   size_t memory_cap = 0, cancel_at = SIZE_MAX, asked = 0;
-  std::vector<double> positions;  // of the result, where there is one
+  std::vector<uint64_t>* asked_in = nullptr;  // where given: running_calls() of each checkpoint
+  std::vector<double> positions;              // of the result, where there is one
   std::vector<uint32_t> nodes;
 
   static int32_t ask(void* user) {
     Trial& self = *static_cast<Trial*>(user);
+    if (self.asked_in != nullptr) self.asked_in->push_back(scenes::running_calls());
     return self.asked++ == self.cancel_at;
   }
 
@@ -140,13 +135,17 @@ const Make k_makers[] = {connect_pieces, integrate_edges};
 }  // namespace
 
 TEST_CASE("networks: every allocation may fail") {
+  scenes::FaultPlaces places(100);
   for (const Make& make : k_makers) {
+    std::vector<uint64_t> calls;
     Trial whole;
+    whole.allocator.places = &calls;
     REQUIRE(whole(make) == WSK_OK);
     REQUIRE(whole.positions.size() > 100);
     const size_t count = whole.allocator.calls;
     REQUIRE(count > 10);
-    for (size_t i = 0; i < count; i += stride_for(count, 100)) {
+    for (const scenes::FaultPlace& place : places.choose(calls)) {
+      const size_t i = place.index;
       CAPTURE(i);
       for (const bool from_then : {false, true}) {
         Trial trial;
@@ -194,11 +193,15 @@ TEST_CASE("networks: the memory cap holds to the byte") {
 }
 
 TEST_CASE("networks: every checkpoint may cancel") {
+  scenes::FaultPlaces places(100);
   for (const Make& make : k_makers) {
+    std::vector<uint64_t> calls;
     Trial whole;
+    whole.asked_in = &calls;
     REQUIRE(whole(make) == WSK_OK);
     REQUIRE(whole.asked > 0);
-    for (size_t i = 0; i < whole.asked; i += stride_for(whole.asked, 100)) {
+    for (const scenes::FaultPlace& place : places.choose(calls)) {
+      const size_t i = place.index;
       CAPTURE(i);
       Trial trial;
       trial.cancel_at = i;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "support/fault_places.h"
 #include "wireskin.h"
 
 namespace scenes {
@@ -23,7 +24,8 @@ struct FaultyAllocator {
   size_t live_bytes = 0;
   size_t live_blocks = 0;
   size_t peak_bytes = 0;
-  bool wrong_release = false;  // a size that was not the one asked for, or a null
+  std::vector<uint64_t>* places = nullptr;  // where given: running_calls() of each allocation
+  bool wrong_release = false;               // a size that was not the one asked for, or a null
 
   void install(wsk_options* options) {
     options->allocate = allocate;
@@ -35,6 +37,7 @@ struct FaultyAllocator {
   static void* allocate(size_t bytes, void* user) {
     FaultyAllocator& self = *static_cast<FaultyAllocator*>(user);
     const size_t call = self.calls++;
+    if (self.places != nullptr) self.places->push_back(running_calls());
     if (call == self.fail_at || (self.fail_from_then && call > self.fail_at)) return nullptr;
     char* block = static_cast<char*>(std::malloc(bytes + k_header));
     if (block == nullptr) return nullptr;

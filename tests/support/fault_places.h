@@ -1,0 +1,62 @@
+// Which allocations and checkpoints the fault tests try. WIRESKIN_FULL in the environment: all.
+// Else a sample spread evenly, and each that is reached through calls that no place tried before
+// was reached through, so that every TRY of the library returns its error at least once.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <set>
+#include <vector>
+
+#if __has_include(<execinfo.h>)
+#include <execinfo.h>
+#define SCENES_HAS_BACKTRACE 1
+#endif
+
+namespace scenes {
+
+// The functions that are running, as one number; 0 where the system does not say.
+inline uint64_t running_calls() {
+  uint64_t hash = 0;
+#ifdef SCENES_HAS_BACKTRACE
+  void* frames[48];
+  const int count = backtrace(frames, 48);
+  for (int i = 0; i < count; ++i) {
+    hash = (hash ^ reinterpret_cast<uintptr_t>(frames[i])) * 0x100000001b3u;
+  }
+#endif
+  return hash;
+}
+
+inline bool tries_all_places() {
+  return std::getenv("WIRESKIN_FULL") != nullptr;
+}
+
+struct FaultPlace {
+  size_t index;
+  bool sampled;  // one of the even sample; in the full tier all are
+};
+
+class FaultPlaces {
+ public:
+  explicit FaultPlaces(size_t sample) : sample_(sample) {}
+
+  // `calls`: what running_calls() gave at each place, in order.
+  std::vector<FaultPlace> choose(const std::vector<uint64_t>& calls) {
+    std::vector<FaultPlace> places;
+    const size_t step = std::max<size_t>(1, calls.size() / sample_);
+    for (size_t i = 0; i < calls.size(); ++i) {
+      const bool fresh = tried_.insert(calls[i]).second && calls[i] != 0;
+      const bool sampled = i % step == 0 || tries_all_places();
+      if (fresh || sampled) places.push_back({i, sampled});
+    }
+    return places;
+  }
+
+ private:
+  size_t sample_;
+  std::set<uint64_t> tried_;
+};
+
+}  // namespace scenes
