@@ -6,7 +6,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Limits limits;
   wsk_options options = limits.options();
   // Curves that nearly coincide are sampled finely, long before the number of tetrahedra ends it.
-  options.memory_cap = size_t{1} << 21;
+  options.memory_cap = size_t{1} << 20;
   wsk_flow_options how;
   wsk_flow_options_init(&how, sizeof how);
   how.most_tetrahedra = 5000;
