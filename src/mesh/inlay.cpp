@@ -72,6 +72,19 @@ Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
   return nearest;
 }
 
+// Whether a place of a triangle lies on the border of the mesh, to which what is beside it
+// projects.
+static bool is_beside(const uint32_t* triangle, const Vec3& w, uint32_t rim) {
+  const double weight[3] = {w.x, w.y, w.z};
+  int held = 0, all = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (weight[k] == 0.0) continue;
+    ++all;
+    held += triangle[k] < rim;
+  }
+  return held == all && all < 3;
+}
+
 // The nearest place in the triangles round the nearest vertex.
 static Status find_feet(Span<const Vec3> position, Span<const uint32_t> triangle, InlayWork* work) {
   Context& context = work->flat.context();
@@ -88,6 +101,7 @@ static Status find_feet(Span<const Vec3> position, Span<const uint32_t> triangle
       if (dot(gap, gap) < least) least = dot(gap, gap), nearest = v;
     }
     Vec2 flat;
+    bool beside = false;
     least = DBL_MAX;
     for (uint32_t k = start[nearest]; k < start[nearest + 1]; ++k) {
       const uint32_t* t = &triangle[corner[k] / 3 * 3];
@@ -97,7 +111,13 @@ static Status find_feet(Span<const Vec3> position, Span<const uint32_t> triangle
       if (!(dot(gap, gap) < least)) continue;
       least = dot(gap, gap);
       work->foot[i] = q;
+      beside = is_beside(t, w, work->rim);
       flat = w.x * work->flat[t[0]] + w.y * work->flat[t[1]] + w.z * work->flat[t[2]];
+    }
+    if (beside) {
+      Place place;
+      place.vertex = work->rim + static_cast<uint32_t>(i);
+      return fail(Code::patch_folded, "the curve leaves the patch that it lies in", place);
     }
     TRY(work->drawn.push(flat));
     TRY(context.checkpoint());

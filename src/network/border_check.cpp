@@ -1,5 +1,7 @@
 #include "network/border_check.h"
 
+#include "network/linking.h"
+
 namespace wireskin::network {
 
 static double clamp_to_unit(double t) {
@@ -59,7 +61,15 @@ Status check_border(const Border& border) {
         "the border runs clockwise round its normals: where a surface ends, its curves must be "
         "tagged as boundary");
   }
-  return find_crossing(border, perimeter);
+  TRY(find_crossing(border, perimeter));
+  // One turn is what a border that passes over itself asks for; a sound surface takes it up, though
+  // not all of the normals.
+  int32_t linked = 0;
+  TRY(linking_number(border, &linked));
+  if (linked >= -1 && linked <= 1) return {};
+  return fail(Code::patch_folded,
+              "no two-sided surface without crossings has this border with these normals: it is "
+              "one-sided, knotted, or a curve is missing");
 }
 
 }  // namespace wireskin::network

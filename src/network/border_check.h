@@ -1,6 +1,7 @@
 // Borders that no surface can have, sought where the plane of a patch fails: those that cross
 // themselves in space, and those that run clockwise round their own normals, as the outside of an
-// open surface does whose border is not tagged.
+// open surface does whose border is not tagged; and those whose normals ask for a one-sided surface
+// or for crossings (network/linking.h).
 //
 // In: the loops of a border with their normals (zero: unknown). Out: a status without place.
 // O(n^2), with cheap rejections.

@@ -124,6 +124,9 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
     TRY(border_of_patch(network, vertices, p, &border));
     Outline outline(border);
     if (!fit_plane(border, &outline.plane).ok()) continue;
+    // What runs clockwise is the outside of its loop.
+    const bool clockwise = dot(vector_area(border), outline.plane.normal) < 0.0;
+    if (clockwise && !network.ring[p]) continue;
     TRY(draw_outline(&outline));
     const double reach = 2.0 * outline.widest + outline.highest;
     size_t low = 0, high = count;

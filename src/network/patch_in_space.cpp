@@ -1,5 +1,6 @@
 #include "network/patch_in_space.h"
 
+#include "mesh/band.h"
 #include "mesh/dome.h"
 #include "num/minmax.h"
 
@@ -50,19 +51,38 @@ static Status refine_and_raise(const Border& border, const mesh::HeldCurves& hel
   return {};
 }
 
-static Status take_loop_mesh(const Border& border, double spacing, SpaceMesh* mesh) {
-  Context& context = mesh->position.context();
-  mesh::LoopMesh flat(context);
-  TRY(mesh::mesh_loops(context, loops_of(border), spacing, &flat));
+static Status take_mesh(const Border& border, mesh::LoopMesh* made, SpaceMesh* mesh) {
   TRY(mesh->position.copy(border.position.span()));
-  for (const Vec3& p : flat.inner) TRY(mesh->position.push(p));
-  mesh->triangle = static_cast<Array<uint32_t>&&>(flat.triangle);
+  for (const Vec3& p : made->inner) TRY(mesh->position.push(p));
+  mesh->triangle = static_cast<Array<uint32_t>&&>(made->triangle);
+  return {};
+}
+
+static Status take_loop_mesh(const Border& border, double spacing, SpaceMesh* mesh) {
+  mesh::LoopMesh flat(mesh->position.context());
+  TRY(mesh::mesh_loops(mesh->position.context(), loops_of(border), spacing, &flat));
+  return take_mesh(border, &flat, mesh);
+}
+
+static Status take_band(const Border& border, double spacing, SpaceMesh* mesh) {
+  Context& context = mesh->position.context();
+  mesh::LoopMesh band(context);
+  TRY(mesh::mesh_band(context, loops_of(border), spacing, &band));
+  TRY(take_mesh(border, &band, mesh));
+  if (has_needles(*mesh)) return {};
+  TRY(mesh::refine_loops(context, spacing, border.start.span(), &mesh->position, &mesh->triangle));
+  mesh->band = !has_needles(*mesh);
   return {};
 }
 
 Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh) {
   constexpr int k_coarse_rounds = 2, k_fine_rounds = 1;
   mesh->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
+  mesh->band = false;
+  if (mesh->raised && border.loops() == 2) {
+    TRY(take_band(border, spacing, mesh));
+    if (mesh->band) return {};
+  }
   if (mesh->raised) {
     const double coarse = larger(
         spacing, smaller(k_coarser * spacing, border_length(border) / k_edges_of_coarse_border));

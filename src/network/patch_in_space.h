@@ -1,11 +1,11 @@
 // The mesh of a patch that no plane shows: little area inside its loops (mesh/loop_mesh.h), and
 // where its normals agree too little with the axis of the border for a flat start, raised from it
-// along them (mesh/dome.h).
+// along them: a band between two loops at once (mesh/band.h), else mesh/dome.h.
 //
 // In: a border that passes no vertex twice, the wished spacing. Out: points, those of the border
-// first, and triangles. Raising begins on a mesh that is coarser inside, so that its several
-// systems are small; one last is solved at the wished spacing. A mesh that raising would make
-// needles of stays as it was.
+// first, and triangles. A dome begins on a mesh that is coarser inside, so that most of its systems
+// are small; one last is solved at the wished spacing. A mesh that raising would make needles of
+// stays as it was.
 #pragma once
 
 #include "mesh/loop_refine.h"
@@ -16,7 +16,8 @@ namespace wireskin::network {
 struct SpaceMesh {
   Array<Vec3> position;
   Array<uint32_t> triangle;
-  bool raised = false;
+  bool raised = false;  // from little area
+  bool band = false;    // by mesh/band.h
 
   explicit SpaceMesh(Context& context) : position(context), triangle(context) {}
 };
@@ -24,7 +25,7 @@ struct SpaceMesh {
 // Failures are those of mesh/loop_mesh.h.
 Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh);
 
-// Raises it again and refines it where that stretched it, with more held than the border.
+// Raises a dome again and refines it where that stretched it, with more held than the border.
 Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
                    SpaceMesh* mesh);
 

@@ -320,7 +320,7 @@ static Status inlay_patch(double spacing, PatchScratch* scratch) {
   if (has_needles(scratch->spatial)) {
     return fail(Code::patch_folded, "curves inside the patch lie too near each other");
   }
-  if (!scratch->spatial.raised) return {};
+  if (!scratch->spatial.raised || scratch->spatial.band) return {};
   return raise_again(border, {n, edges.span()}, spacing, &scratch->spatial);
 }
 

@@ -4,8 +4,9 @@
 // In: the vertices on the curves and the cycles. Out: triangles over the curve vertices (first) and
 // the free vertices, each triangle with its shape in its patch's plane, the metric of the paper's
 // method. The plane goes through the mean of the border's positions across the mean of its normals.
-// A patch whose border has no plane, or folds in it, is meshed in space instead (mesh/loop_mesh.h),
-// and its triangles have their shapes there.
+// A patch whose border has no plane, or folds in it, is meshed in space instead
+// (network/patch_in_space.h), curves inside it too (mesh/inlay.h); its triangles have their shapes
+// there.
 // No vertex is ever added on a curve, so patches conform; a chord between curve vertices that would
 // stand in two patches, or beside a curve, is split by a free vertex. O(n log n). Source: T. Stanko
 // et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3.
@@ -43,9 +44,9 @@ struct PatchMesh {
 // `least_facing`: a plane is taken only where the mean cosine between its normal and those of the
 // border is at least this; -1 takes every plane that shows the border without folds. Fails, naming
 // the patch and a curve of it, with patch_without_plane where the border runs clockwise, with
-// patch_folded where it crosses itself or encloses nothing in space either, or curves lie inside a
-// patch that no plane shows. With `partial` such patches are left without triangles, their vertices
-// maybe too; it fails only where no patch can be made.
+// patch_folded where it crosses itself or encloses nothing in space either, where its normals ask
+// for a one-sided surface, or curves inside it cross. With `partial` such patches are left without
+// triangles, their vertices maybe too; it fails only where no patch can be made.
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
                     bool partial, PatchMesh* mesh);
 

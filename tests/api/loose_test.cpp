@@ -419,3 +419,46 @@ TEST_CASE("rings of one axis become bands between neighbours") {
     }
   }
 }
+
+TEST_CASE("no plane: the border of a Moebius band is named, not filled with a crossing") {
+  Net net;
+  Line line;
+  line.closed = line.boundary = true;
+  for (int k = 0; k < 200; ++k) {
+    const double t = k_turn * k / 200, a = 2 * t, c = std::cos(t), s = std::sin(t);
+    const double r = 1 + 0.4 * c;
+    line.position.insert(line.position.end(), {r * std::cos(a), r * std::sin(a), 0.4 * s});
+    line.normal.insert(line.normal.end(), {s * std::cos(a), s * std::sin(a), -c});
+    line.node.push_back(WSK_NONE);
+  }
+  net.lines.push_back(line);
+  const Built b(net);
+  CHECK(b.status == WSK_ERROR_PATCH_FOLDED);
+  CHECK(b.report.curve == 0);
+  CHECK(std::string(b.report.sentence).find("one-sided") != std::string::npos);
+}
+
+TEST_CASE("rings on top of a torus: what lies in the plane of a ring is inside it, not outside") {
+  Net net;
+  for (int k = 0; k < 6; ++k) {
+    const double v = k_turn * k / 6, c = std::cos(v), s = std::sin(v);
+    net.circle(0, 0, 2 * s, 4 + 2 * c, false);
+    for (size_t i = 0; i < net.lines[k].normal.size(); i += 3) {
+      const double* p = &net.lines[k].position[i];
+      const double r = std::hypot(p[0], p[1]);
+      net.lines[k].normal[i] = c * p[0] / r;
+      net.lines[k].normal[i + 1] = c * p[1] / r;
+      net.lines[k].normal[i + 2] = s;
+    }
+  }
+  const Built b(net);
+  REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+  CHECK(b.report.patches == 6);
+  CHECK(b.report.euler_characteristic == 0);
+  double worst = 0.0;
+  for (uint32_t v = 0; v < b.view.vertex_count; ++v) {
+    const double* p = &b.view.positions[3 * v];
+    worst = std::fmax(worst, std::fabs(std::hypot(std::hypot(p[0], p[1]) - 4, p[2]) - 2));
+  }
+  CHECK(worst < 0.05);
+}
