@@ -318,7 +318,9 @@ typedef struct wsk_report {
 
   double spacing;       /* the spacing used, in your units; mean edge length for wsk_smooth_mesh */
   double min_angle_deg; /* the least angle of all triangles of the result */
-  double residual;      /* relative residual of the last linear solve, greatest of its columns */
+  /* Of the last linear system A x = b: |b - A x| / |b| in the Euclidean norm, the greatest of its
+     columns. Systems are solved to 1e-12, those of more vertices to 1e-11 or 1e-10. */
+  double residual;
   uint32_t factorisations;       /* Cholesky factorisations, of whatever size */
   uint32_t cg_iterations;        /* iterations of conjugate gradients with an earlier factor */
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */

@@ -22,7 +22,7 @@ struct Chord {
 
 // The corners of a triangle, in space or in its patch's plane (z = 0; the same vertex then has
 // another place in each patch).
-struct CornerPlaces {
+struct TriangleCorners {
   uint32_t triangle;
   Vec3 at[3];
 };
@@ -30,7 +30,7 @@ struct CornerPlaces {
 // What is gathered over all patches; `cornered`: the triangles that have chords, ascending.
 struct Builder {
   PatchMesh* mesh;
-  Array<CornerPlaces> cornered;
+  Array<TriangleCorners> cornered;
   Array<Chord> chord;
   Array<uint32_t> patch_start;  // first triangle of each patch, before chords are split
   Array<uint8_t> raised;        // of each patch
@@ -390,7 +390,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
 }
 
-static CornerPlaces* corners_of(uint32_t triangle, Builder* builder) {
+static TriangleCorners* corners_of(uint32_t triangle, Builder* builder) {
   size_t first = 0, end = builder->cornered.size();
   while (first + 1 < end) {
     const size_t middle = first + (end - first) / 2;
@@ -400,7 +400,7 @@ static CornerPlaces* corners_of(uint32_t triangle, Builder* builder) {
   return &builder->cornered[first];
 }
 
-static mesh::TriangleShape shape_of(const CornerPlaces& corners) {
+static mesh::TriangleShape shape_of(const TriangleCorners& corners) {
   return mesh::triangle_shape(corners.at[0], corners.at[1], corners.at[2]);
 }
 
@@ -409,11 +409,11 @@ static mesh::TriangleShape shape_of(const CornerPlaces& corners) {
 static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
   PatchMesh* mesh = builder->mesh;
   const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
-  CornerPlaces* old = corners_of(h / 3, builder);
+  TriangleCorners* old = corners_of(h / 3, builder);
   const Vec3 middle = 0.5 * (old->at[h % 3] + old->at[next % 3]);
   const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
-  const CornerPlaces fresh = {static_cast<uint32_t>(mesh->patch.size()),
-                              {middle, old->at[next % 3], old->at[previous % 3]}};
+  const TriangleCorners fresh = {static_cast<uint32_t>(mesh->patch.size()),
+                                 {middle, old->at[next % 3], old->at[previous % 3]}};
   mesh->triangle[next] = m;
   old->at[next % 3] = middle;
   mesh->shape[h / 3] = shape_of(*old);

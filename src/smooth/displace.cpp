@@ -12,7 +12,7 @@ namespace wireskin::smooth {
 static constexpr double k_bare_pull = 1e-6;
 
 // Row weights and right-hand side of the least squares problem.
-struct MinimumVariation::LeastSquares {
+struct MinimumVariation::WeightedRows {
   const sparse::Csc& rows;
   Span<const double> weight;
   Span<const double> rhs;
@@ -300,7 +300,7 @@ static Status apply_normal_equations(void* self, Span<const double> x, Span<doub
 
 // Conjugate gradients from the last step's h, until the residual is what the size allows. What
 // the iteration cannot do shows in the residual.
-Status MinimumVariation::iterate(const LeastSquares& system,
+Status MinimumVariation::iterate(const WeightedRows& system,
                                  const sparse::LinearOperator& preconditioner, uint32_t most,
                                  Span<double> solution, uint32_t* iterations) {
   const double tolerance = unknowns_ <= 60000 ? 1e-12 : unknowns_ <= 600000 ? 1e-11 : 1e-10;
@@ -317,7 +317,7 @@ Status MinimumVariation::iterate(const LeastSquares& system,
   return status.code == Code::not_positive_definite ? Status{} : status;
 }
 
-Status MinimumVariation::solve_by_old_factor(const LeastSquares& system, Span<double> solution,
+Status MinimumVariation::solve_by_old_factor(const WeightedRows& system, Span<double> solution,
                                              bool* solved) {
   // A factorisation costs as much as some ten to sixty solves, so what is nearly good is accepted.
   constexpr double k_good_enough = 1e-9;
@@ -347,7 +347,7 @@ static Status no_room_for_fairing() {
               "the memory cap leaves no room for the factor of the fairing; `stanko` needs less");
 }
 
-Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const LeastSquares& system,
+Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const WeightedRows& system,
                                              Span<double> solution) {
   const sparse::Csc& rows = system.rows;
   sparse::Csc transposed(context_), matrix(context_);
@@ -381,7 +381,7 @@ Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const L
 
 // The preconditioner is made once, for the mesh of the first step that needs it.
 Status MinimumVariation::solve_by_pairs(const DisplaceInput& input, const sparse::Csc& laplacian,
-                                        Span<const double> area, const LeastSquares& system,
+                                        Span<const double> area, const WeightedRows& system,
                                         Span<double> solution) {
   constexpr uint32_t k_most_iterations = 5000;
   constexpr double k_good_enough = 1e-6;
@@ -435,7 +435,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
       rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
     }
   }
-  const LeastSquares system = {rows, weight.span(), rhs.span()};
+  const WeightedRows system = {rows, weight.span(), rhs.span()};
   bool solved = false;
   if (factorisations_ > 0 && !iterative_) {
     TRY(solve_by_old_factor(system, solution.span(), &solved));

@@ -66,21 +66,21 @@ class MinimumVariation {
   uint32_t iterations() const { return iterations_; }
 
  private:
-  struct LeastSquares;
+  struct WeightedRows;
 
   Status number_unknowns(Span<const uint8_t> held);
   Status make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
                    Span<const double> split_area, Span<const uint32_t> origin,
                    const sparse::Csc& laplacian, sparse::Csc* rows) const;
-  Status iterate(const LeastSquares& system, const sparse::LinearOperator& preconditioner,
+  Status iterate(const WeightedRows& system, const sparse::LinearOperator& preconditioner,
                  uint32_t most, Span<double> solution, uint32_t* iterations);
-  Status solve_by_old_factor(const LeastSquares& system, Span<double> solution, bool* solved);
+  Status solve_by_old_factor(const WeightedRows& system, Span<double> solution, bool* solved);
   Status order_unknowns(const DisplaceInput& input, const sparse::Csc& matrix,
                         Array<uint32_t>* order) const;
-  Status solve_by_new_factor(const DisplaceInput& input, const LeastSquares& system,
+  Status solve_by_new_factor(const DisplaceInput& input, const WeightedRows& system,
                              Span<double> solution);
   Status solve_by_pairs(const DisplaceInput& input, const sparse::Csc& laplacian,
-                        Span<const double> area, const LeastSquares& system, Span<double> solution);
+                        Span<const double> area, const WeightedRows& system, Span<double> solution);
 
   Context& context_;
   sparse::Cholesky factor_;
