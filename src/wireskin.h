@@ -828,10 +828,10 @@ typedef struct wsk_flow_view {
  * and by more than its noise explains, stay corners.
  *
  * Junctions, ends, corners and isolated points, as they are after that, are vertices of the result,
- * bit for bit. All other vertices on curves lie on the polyline through the samples, and no sample
- * is farther from the polyline of the result than a twentieth of the sampling; the report of
- * wsk_flow_surface says how far they are, noise included. (With normals, vertices between two
- * samples leave the polyline to where the normals bend it.)
+ * bit for bit. Without normals all other vertices on curves lie on the polyline through the
+ * samples; with normals they lie on smooth curves through them. No sample is farther from the
+ * polyline of the result than a twentieth of the sampling; the report of wsk_flow_surface says how
+ * far they are, noise included.
  *
  * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
  * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial changes

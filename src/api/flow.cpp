@@ -190,6 +190,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   if (flow_options.jitter > 0.0) inside.complex.jitter = flow_options.jitter;
   if (flow_options.most_tetrahedra > 0) inside.complex.most_tets = flow_options.most_tetrahedra;
   inside.complex.seed = flow_options.seed;
+  inside.bend = !made->normal.empty();
   const flow::Polylines polylines = {input.start.span(), input.position.span(), input.number.span(),
                                      input.closed.span()};
   TRY(made->given.copy(input.position.span()));

@@ -238,6 +238,7 @@ Status find_arcs(Context& context, const Polylines& curves, Arcs* arcs) {
   arcs->diagonal = diagonal_of(curves.position);
   TRY(find_vertices(context, curves, arcs));
   const uint32_t vertices = static_cast<uint32_t>(arcs->vertex.size());
+  arcs->given = vertices;
   TRY(gather_edges(curves, *arcs, &graph.edge));
   TRY(link_edges(vertices, &graph));
   TRY(arcs->is_node.resize(vertices));

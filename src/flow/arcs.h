@@ -26,6 +26,7 @@ struct Polylines {
 
 struct Arcs {
   double diagonal = 0.0;          // of the bounding box
+  uint32_t given = 0;             // vertices that are samples; bend_arcs adds others behind them
   Array<Vec3> vertex;             // the points
   Array<uint32_t> sample_vertex;  // of each of the caller's samples
   Array<uint32_t> start;        // arc a is path[start[a] .. start[a + 1]), closed: first again last

@@ -95,6 +95,8 @@ static void trace_chain(const Arcs& arcs, Span<const uint32_t> partner, uint32_t
   while (true) {
     const uint32_t a = end / 2, count = arcs.start[a + 1] - arcs.start[a];
     used[a] = 1;
+    chains->arc_place[a] = static_cast<uint32_t>(chains->vertex.size());
+    chains->arc_backward[a] = end % 2;
     for (uint32_t i = 0; i + 1 < count; ++i) {
       const uint32_t at = end % 2 == 0 ? arcs.start[a] + i : arcs.start[a + 1] - 1 - i;
       chains->vertex.push_reserved(arcs.path[at]);
@@ -117,6 +119,8 @@ static Status trace_chains(const Arcs& arcs, Chains* chains) {
   TRY(chains->start.reserve(size_t{arcs.size()} + 1));
   TRY(chains->closed.reserve(arcs.size()));
   TRY(chains->vertex.reserve(arcs.path.size()));
+  TRY(chains->arc_place.resize(arcs.size()));
+  TRY(chains->arc_backward.resize(arcs.size()));
   chains->start.clear();
   chains->closed.clear();
   chains->vertex.clear();
@@ -143,6 +147,7 @@ struct Bend {
 struct Turn {
   uint32_t place;
   Bend narrow, wide;
+  bool flat;  // it goes on in the plane in which it turns, or at a right angle to that
 
   double strength() const { return narrow.turn + wide.turn; }
 };
@@ -165,6 +170,21 @@ static Bend bend_at(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
   const double g = 1.0 / length(to), h = 1.0 / length(from);
   const double turn = length(h * from - g * to);
   return {turn, turn / std::sqrt(g * g + h * h + (g + h) * (g + h))};
+}
+
+// Polygons that people draw lie in planes, or are made of right angles; noise does neither.
+static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place) {
+  constexpr double k_flat = 0.02;
+  const uint32_t first = chains.start[chain], count = chains.start[chain + 1] - first;
+  const uint32_t i = place - first;
+  if (chains.closed[chain] == 0 && (i == 0 || i + 2 >= count)) return true;
+  const auto point = [&](uint32_t k) -> const Vec3& {
+    return arcs.vertex[chains.vertex[first + k % count]];
+  };
+  const Vec3 across = cross(point(i) - point(i + count - 1), point(i + 1) - point(i));
+  const Vec3 next = point(i + 2) - point(i + 1);
+  const double part = std::fabs(dot(across, next)) / (length(across) * length(next));
+  return !(part > k_flat && part < 1.0 - k_flat);
 }
 
 // Of the noise, as the quarter of the samples that moved least show it: where curves are polygons
@@ -194,11 +214,16 @@ static bool turns_most(Span<const Turn> turns, size_t i, bool closed) {
 static Status mark_corners_of(double noise, bool closed, Span<const Turn> turns,
                               Array<double>* moves, Span<uint8_t> corner) {
   constexpr double k_contrast = 4.7;  // one in 50 000 samples moves by more
+  constexpr size_t k_statistics = 16;
   if (turns.empty()) return {};
-  size_t sharp = 0;
+  size_t sharp = 0, flat = 0;
   double sigma = noise;
-  for (const Turn& turn : turns) sharp += turn.narrow.turn > k_sharp;
-  const bool polygon = !(noise > 0.0) && 4 * sharp > 3 * turns.size();
+  for (const Turn& turn : turns) {
+    sharp += turn.narrow.turn > k_sharp;
+    flat += turn.flat;
+  }
+  const bool in_space = turns.size() >= k_statistics && 5 * flat < turns.size();
+  const bool polygon = !(noise > 0.0) && !in_space && 4 * sharp > 3 * turns.size();
   if (!(noise > 0.0)) TRY(noise_of(turns, moves, &sigma));
   for (size_t i = 0; i < turns.size(); ++i) {
     const Bend &narrow = turns[i].narrow, &wide = turns[i].wide;
@@ -221,8 +246,8 @@ static Status mark_corners(Context& context, const Arcs& arcs, double noise, Cha
     for (uint32_t i = chains->start[c]; i < chains->start[c + 1]; ++i) {
       const bool end = i == chains->start[c] || i + 1 == chains->start[c + 1];
       if (!closed && end) continue;
-      turns.push_reserved(
-          {i, bend_at(arcs, *chains, c, i, 1), bend_at(arcs, *chains, c, i, k_wide)});
+      turns.push_reserved({i, bend_at(arcs, *chains, c, i, 1), bend_at(arcs, *chains, c, i, k_wide),
+                           is_flat(arcs, *chains, c, i)});
     }
     TRY(mark_corners_of(noise, closed, turns.span(), &moves, chains->corner.span()));
     if (c % 1024 == 0) TRY(context.checkpoint());

@@ -1,5 +1,6 @@
 #include "flow/flow.h"
 
+#include "flow/bend_arcs.h"
 #include "flow/loose_walls.h"
 #include "num/minmax.h"
 
@@ -14,6 +15,7 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   if (!(options.sampling > 0.0) && options.spacing > 0.0) {
     flow->step = smaller(flow->step, options.spacing);
   }
+  if (options.bend) TRY(bend_arcs(context, flow->step, &flow->arcs));
   TRY(sample_arcs(context, flow->arcs, flow->step, &flow->samples));
   TRY(find_tangents(flow->samples, &flow->tangents));
   TRY(context.enter(Stage::network));

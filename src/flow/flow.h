@@ -20,6 +20,7 @@ struct FlowOptions {
   // less.
   double sampling = 0.0;
   double spacing = 0.0;
+  bool bend = false;  // the samples are of smooth curves, not corners of polylines
   ComplexOptions complex;
 };
 

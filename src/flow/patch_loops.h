@@ -2,8 +2,8 @@
 //
 // In: the patch's triangles. Out: its loops, each beginning where a run does, the patch on their
 // left; its Euler characteristic; whether an edge of the border is off the curves. Where loops
-// touch at a vertex the walk turns round it through the patch, so they stay apart. Linear. Source of
-// patches by their loops: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D
+// touch at a vertex the walk turns round it through the patch, so they stay apart. Linear. Source
+// of patches by their loops: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D
 // Curves", 2014, section 4.4.
 #pragma once
 

@@ -99,13 +99,20 @@ static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
   Array<Vec3> normal(surface->normal.context());
   TRY(normals_of_vertices(flow, given, &normal));
   for (uint32_t i = 0; i < samples.at.size(); ++i) {
-    const uint32_t step = samples.step[i], p = arcs.path[step], q = arcs.path[step + 1];
-    const double whole = arcs.along[step + 1] - arcs.along[step];
-    const double share = whole > 0.0 ? (samples.along[i] - arcs.along[step]) / whole : 0.0;
+    uint32_t before = samples.step[i], after = before + 1;
+    while (arcs.path[before] >= arcs.given) --before;
+    while (arcs.path[after] >= arcs.given) ++after;
+    const uint32_t p = arcs.path[before], q = arcs.path[after];
+    const double whole = arcs.along[after] - arcs.along[before];
+    const double share = whole > 0.0 ? (samples.along[i] - arcs.along[before]) / whole : 0.0;
     const double clamped = smaller(larger(share, 0.0), 1.0);
     const uint32_t v = vertex_of[samples.at[i]];
     surface->constraint_normal[v] = unit((1.0 - clamped) * normal[p] + clamped * normal[q]);
     (*offset)[v] = bent(arcs.vertex[p], arcs.vertex[q], normal[p], normal[q], clamped);
+    if (after == before + 1 || clamped == 0.0 || clamped == 1.0) continue;
+    // The arc has left the segment already, as far as its samples told where to.
+    const Vec3 straight = arcs.vertex[p] + clamped * (arcs.vertex[q] - arcs.vertex[p]);
+    (*offset)[v] += straight - surface->position[v];
   }
   return {};
 }

@@ -12,7 +12,8 @@ using namespace flow_tests;
 
 namespace {
 
-constexpr uint32_t k_draws = 2;
+constexpr uint32_t k_draws = 2, k_circles = 3;
+constexpr size_t k_most_curves = 16;
 
 void write_noise(std::FILE* file, const std::vector<Shape>& shapes) {
   std::fprintf(file, "%s",
@@ -62,12 +63,13 @@ struct Sum {
 void write_curves(std::FILE* file, const std::vector<Shape>& shapes) {
   std::fprintf(
       file, "%s",
-      "\n## Curves taken away and put back\n\nEach curve of each network of 3 to 40 in turn. "
+      "\n## Curves taken away and put back\n\nEach curve of each network of 3 to 16 in turn. "
       "Patches that differ: without the curve, those that the whole network has\nnot; with it, "
       "those that the network without it has not (same: the same area to 2 %, the same middle to 1 "
       "% of the diagonal).\nFarthest: the distance of the farthest place that moved by more than 1 "
       "% of the diagonal from the curve, in lengths of the\ncurve; local: it is less than one. "
-      "Circles: a circle, a twentieth of the diagonal across, put somewhere in the box, ten\ntimes "
+      "Circles: a circle, a twentieth of the diagonal across, put somewhere in the box, "
+      "three\ntimes "
       "each: how often a patch of the network was not there any more, and how often farther than "
       "half the diagonal.\n\n| network | curves | patches | without: differ, mean | most | with: "
       "differ, mean | most | farthest, mean | most | local | circles: differ | far |\n"
@@ -75,12 +77,12 @@ void write_curves(std::FILE* file, const std::vector<Shape>& shapes) {
   size_t all = 0, local = 0, circles = 0, changed = 0, far = 0;
   for (const Shape& shape : shapes) {
     const size_t n = shape.net.curve.size();
-    if (n > 40 || n < 3) continue;
+    if (n > k_most_curves || n < 3) continue;
     Sum sum;
     for (const Change& c : changes_by_removal(shape)) sum.add(c);
     const Run whole = run(shape.net, {0.02, 0, shape.voids, false, false});
     size_t differ = 0, distant = 0;
-    for (uint32_t seed = 1; seed <= 10; ++seed) {
+    for (uint32_t seed = 1; seed <= k_circles; ++seed) {
       const Change c = change_by_circle(shape, whole, seed);
       differ += c.without > 0;
       distant += c.reach > 0.5 * diagonal_of(shape.net);
@@ -93,7 +95,7 @@ void write_curves(std::FILE* file, const std::vector<Shape>& shapes) {
     std::fflush(file);
     all += n;
     local += sum.local;
-    circles += 10;
+    circles += k_circles;
     changed += differ;
     far += distant;
   }

@@ -133,5 +133,6 @@ TEST_CASE("Polygons are all corners, unless noise is stated") {
   stairs.curve.push_back(curve);
   CHECK(Chained(stairs).corners() == 22);
   CHECK(Chained(stairs, 0.5).corners() == 0);
-  CHECK(Chained(square(2, 0.0, 1)).corners() == 4);  // one sample amid each side
+  CHECK(Chained(square(2, 0.0, 1)).corners() == 4);     // one sample amid each side
+  CHECK(Chained(square(40, 0.015, 1)).corners() < 20);  // noise of more than half a step
 }
