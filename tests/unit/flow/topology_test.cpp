@@ -62,8 +62,8 @@ TEST_CASE("Walls separate the chosen voids and the outside, and nothing else") {
     Topology3 topology(heap.context);
     TopologyOptions options;
     options.voids = voids;
-    unit::must(reconstruct_topology(heap.context, flow.complex, flow.curves, flow.persistence,
-                                    options, &topology));
+    unit::must(reconstruct_topology(heap.context, flow.complex, flow.curves,
+                                    flow.flatness.span(), flow.persistence, options, &topology));
     CHECK(topology.chosen.size() == size_t(voids));
     unit::Array<uint32_t> label(heap.context);
     unit::must(label_rooms(flow.complex, topology.walls, &label));
