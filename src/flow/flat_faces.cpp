@@ -18,12 +18,12 @@ struct Plane {
 };
 
 struct FaceFlood {
-  Array<uint32_t> mark;    // of each triangle: the seed whose face it was last in
-  Array<uint8_t> visits;   // of each triangle
-  Array<uint32_t> member;  // the face
-  Array<uint8_t> straight;  // of each edge: on a straight arc
-  Array<uint32_t> line;     // of each vertex inside a straight arc: the arc
-  Array<uint32_t> line_end;  // of each arc, two
+  Array<uint32_t> mark;               // of each triangle: the seed whose face it was last in
+  Array<uint8_t> visits;              // of each triangle
+  Array<uint32_t> member;             // the face
+  Array<uint8_t> straight;            // of each edge: on a straight arc
+  Array<uint32_t> line;               // of each vertex inside a straight arc: the arc
+  Array<uint32_t> line_end;           // of each arc, two
   Array<uint32_t> seen, border_edge;  // of each vertex: its edges on the border, and one of them
 
   explicit FaceFlood(Context& context)

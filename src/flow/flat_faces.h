@@ -2,9 +2,9 @@
 //
 // In: the complex, the samples, the curves' edges, the walls of all rooms. Out: for each triangle
 // whether it lies in such a face, and whether the face is a polygon: at least half of its border is
-// straight, and has corners rather than bends. Found by flooding coplanar triangles of the walls from
-// the largest one on; a set counts if at each of its edges off the curves it lies on both sides.
-// O(triangles log triangles).
+// straight, and has corners rather than bends. Found by flooding coplanar triangles of the walls
+// from the largest one on; a set counts if at each of its edges off the curves it lies on both
+// sides. O(triangles log triangles).
 #pragma once
 
 #include "flow/sheet.h"

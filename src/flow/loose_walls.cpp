@@ -7,7 +7,8 @@ static constexpr double k_share_in_faces = 0.25, k_share_anywhere = 0.9;
 // Rooms of a lesser ratio are noise of the samples; only flat faces are sure enough to tell by.
 static constexpr double k_least_room = 1.02;
 static constexpr int k_most_rounds = 8;
-// The cosine between two walls at an edge, both seen from it, that continue each other: 160 degrees.
+// The cosine between two walls at an edge, both seen from it, that continue each other: 160
+// degrees.
 static constexpr double k_continuing = -0.94;
 static constexpr uint32_t k_most_at_edge = 16;
 

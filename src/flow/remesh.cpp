@@ -214,16 +214,18 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
   return {};
 }
 
-// Patches in crossings try less; true if one could.
+// Patches in crossings try less, and where there are more than were listed nothing at all; true if
+// one could.
 static bool hold_back(const FlowMesh& mesh, Span<const uint32_t> pairs, Span<uint8_t> effort,
                       Span<uint8_t> again) {
+  const bool many = pairs.size() >= 2 * k_most_pairs;
   bool any = false;
   for (uint8_t& flag : again) flag = 0;
   for (const uint32_t t : pairs) {
     const uint32_t p = mesh.patch[t];
     if (again[p] != 0 || effort[p] == k_untouched) continue;
     again[p] = 1;
-    --effort[p];
+    effort[p] = many ? k_untouched : static_cast<uint8_t>(effort[p] - 1);
     any = true;
   }
   return any;

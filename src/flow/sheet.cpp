@@ -48,8 +48,10 @@ void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t 
   }
 }
 
-void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
-  while (!sheet->loose.empty()) {
+// Until nothing is loose or, if wished, a curve has lost its last triangle.
+static void drain_loose(const Complex& complex, const CurveEdges& curves, Protect protect,
+                        bool until_bared, Sheet* sheet) {
+  while (!sheet->loose.empty() && !(until_bared && sheet->bared)) {
     const uint32_t e = sheet->loose.back();
     sheet->loose.pop();
     if (sheet->degree[e] != 1) continue;
@@ -58,6 +60,17 @@ void peel_after(const Complex& complex, const CurveEdges& curves, Protect protec
       if (sheet->in[t] != 0) remove_triangle(complex, curves, t, sheet);
     }
   }
+}
+
+void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
+  drain_loose(complex, curves, protect, false, sheet);
+}
+
+bool peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet) {
+  drain_loose(complex, curves, Protect::curves, true, sheet);
+  if (!sheet->bared) return true;
+  undo_removal(complex, sheet);
+  return false;
 }
 
 void peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {

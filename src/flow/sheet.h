@@ -37,6 +37,9 @@ void begin_removal(Sheet* sheet);
 void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t triangle,
                      Sheet* sheet);
 void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
+// Likewise, the curves protected; where one would lose its last triangle, takes the whole removal
+// back at once and returns false.
+bool peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet);
 void undo_removal(const Complex& complex, Sheet* sheet);
 
 // The triangles that can be reached from one without crossing a curve, a chord, or an edge whose

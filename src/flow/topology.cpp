@@ -167,8 +167,7 @@ static double room_volume(const Complex& complex, Span<const uint32_t> label, ui
     if (label[i] != room) continue;
     const uint32_t* const v = &complex.tet[4 * size_t{i}];
     const Vec3& a = complex.point[v[0]];
-    six += dot(complex.point[v[1]] - a,
-               cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
+    six += dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
   }
   return six / 6.0;
 }
@@ -289,12 +288,8 @@ static Status open_handles(Context& context, const Complex& complex, const Curve
     if (finless.in[t] == 0) continue;
     begin_removal(&walls);
     remove_triangle(complex, curves, t, &walls);
-    peel_after(complex, curves, Protect::curves, &walls);
+    if (!peel_unless_bared(complex, curves, &walls)) continue;
     if (walls.removed.size() > 1000) TRY(context.checkpoint());
-    if (walls.bared) {
-      undo_removal(complex, &walls);
-      continue;
-    }
     begin_removal(&finless);
     for (const uint32_t gone : walls.removed) remove_triangle(complex, curves, gone, &finless);
     peel_after(complex, curves, Protect::nothing, &finless);
@@ -313,31 +308,63 @@ static bool has_open_border(const Complex& complex, const CurveEdges& curves, co
   return false;
 }
 
-// One pass over the walls, greatest radius first; true in *any if one went.
+enum class Settled : uint8_t { no, now, yes };
+
+// The triangles of a wall from one of them on, as far as they are not settled; `whole` unless it
+// goes on in ones that are.
+static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, const Sheet& walls,
+                              uint32_t triangle, Span<Settled> settled, Array<uint32_t>* wall,
+                              bool* whole) {
+  wall->clear();
+  *whole = true;
+  settled[triangle] = Settled::now;
+  TRY(wall->push(triangle));
+  for (size_t i = 0; i < wall->size(); ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{(*wall)[i]} + k];
+      if (walls.degree[e] != 2 || curves.by_curve(e)) continue;
+      for (const uint32_t t : complex.triangles_of(e)) {
+        if (walls.in[t] == 0 || settled[t] == Settled::now) continue;
+        *whole = *whole && settled[t] == Settled::no;
+        if (settled[t] == Settled::yes) continue;
+        settled[t] = Settled::now;
+        TRY(wall->push(t));
+      }
+    }
+  }
+  return {};
+}
+
+// Greatest radius first. A wall that must stay, as a curve would go bare without it, must so for
+// good, and with it all that joins it later, for there are only ever fewer triangles; and one whose
+// border is closed has no neighbour that it could join. So each is looked at once.
 static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
-                                Topology3* topology, bool* any) {
+                                Topology3* topology) {
+  constexpr size_t k_work_per_checkpoint = 1u << 14;
   Sheet& walls = topology->walls;
-  Array<uint32_t> order(context), mark(context), wall(context);
-  TRY(mark.assign(complex.triangle_count(), k_none));
+  Array<uint32_t> order(context), wall(context);
+  Array<Settled> settled(context);
+  TRY(settled.assign(complex.triangle_count(), Settled::no));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (walls.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
-  *any = false;
-  for (uint32_t i = 0; i < order.size(); ++i) {
-    // A mark of this pass: the wall was looked at from a triangle of greater radius.
-    if (walls.in[order[i]] == 0 || mark[order[i]] != k_none) continue;
-    TRY(flood_patch(complex, curves, walls, order[i], i, mark.span(), &wall));
-    if (wall.size() > 1000) TRY(context.checkpoint());
-    if (!has_open_border(complex, curves, walls, wall.span())) continue;
-    begin_removal(&walls);
-    for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
-    peel_after(complex, curves, Protect::curves, &walls);
-    if (walls.bared) {
-      undo_removal(complex, &walls);
-    } else {
-      *any = true;
+  size_t work = 0;
+  for (const uint32_t seed : order) {
+    if (walls.in[seed] == 0 || settled[seed] != Settled::no) continue;
+    bool whole = false;
+    TRY(flood_unsettled(complex, curves, walls, seed, settled.span(), &wall, &whole));
+    work += wall.size();
+    if (whole && has_open_border(complex, curves, walls, wall.span())) {
+      begin_removal(&walls);
+      for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
+      peel_unless_bared(complex, curves, &walls);
+      work += walls.removed.size();
     }
+    for (const uint32_t t : wall) settled[t] = Settled::yes;
+    if (work < k_work_per_checkpoint) continue;
+    TRY(context.checkpoint());
+    work = 0;
   }
   return {};
 }
@@ -358,11 +385,7 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));
   TRY(open_handles(context, complex, curves, topology));
-  constexpr int k_most_passes = 20;
-  bool any = !options.open_walls;
-  for (int pass = 0; any && pass < k_most_passes; ++pass) {
-    TRY(remove_open_walls(context, complex, curves, topology, &any));
-  }
+  if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, topology));
   return {};
 }
 

@@ -6,9 +6,10 @@
 // walls separate exactly the chosen voids and the outside from each other; no piece of curve that
 // had a triangle loses its last one. Method: destroyers and chosen creators, peeled from all edges
 // but the curves'; a void counts only if its wall ends on curves, which triangulations of nearly
-// round tubes feign; then triangles with the same void on both sides go, greatest radius first, as
-// far as they are not fins. O(triangles) for a void tried, near-linear else. Source: B. Sadri, K.
-// Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3 and figure 13.
+// round tubes feign; a flat polygon between a room and the outside counts whatever the room's
+// ratio; then triangles with the same void on both sides go, greatest radius first, as far as they
+// are not fins. O(triangles) for a void tried, near-linear else. Source: B. Sadri, K. Singh,
+// "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3 and figure 13.
 #pragma once
 
 #include "flow/flat_faces.h"

@@ -1,5 +1,6 @@
 #include "mesh/loop_refine.h"
 
+#include "base/sort.h"
 #include "mesh/curvature.h"
 #include "num/minmax.h"
 
@@ -31,6 +32,7 @@ struct LoopRefinement {
   Array<uint32_t> twins;
   Array<uint32_t> suspect;    // half-edges that may have to be flipped
   Span<const uint32_t> name;  // of the held points; empty: all are different
+  Array<uint8_t> copied;      // of the held points: another has the same name
   bool may_relax = true;
 
   LoopRefinement(Context& context, Span<const uint32_t> loops, double wished, Array<Vec3>* points,
@@ -42,7 +44,8 @@ struct LoopRefinement {
         triangle(triangles),
         size(context),
         twins(context),
-        suspect(context) {}
+        suspect(context),
+        copied(context) {}
 
   uint32_t origin(uint32_t h) const { return (*triangle)[h]; }
   uint32_t head(uint32_t h) const { return (*triangle)[next_half_edge(h)]; }
@@ -105,15 +108,41 @@ static double greatest_cotangent(const LoopRefinement& r, uint32_t i, uint32_t j
 }
 
 // Walks round the origin of a half-edge, both ways because the rim may end the walk.
-static bool joined(const LoopRefinement& r, uint32_t from_half_edge, uint32_t to) {
-  uint32_t h = from_half_edge;
-  do {
-    if (r.same(r.head(h), to) || r.same(r.apex(h), to)) return true;
-    h = r.twins[previous_half_edge(h)];
-  } while (h != k_none && h != from_half_edge);
-  if (h == from_half_edge) return false;
-  for (h = r.twins[from_half_edge]; h != k_none; h = r.twins[next_half_edge(h)]) {
-    if (r.same(r.apex(h), to)) return true;
+struct StarWalk {
+  uint32_t first, at;
+  bool backward, done;
+};
+
+// Whether the triangle that the walk is at has a corner of the same name; then goes to the next.
+static bool meets_and_steps(const LoopRefinement& r, uint32_t name, StarWalk* walk) {
+  if (r.same(r.head(walk->at), name) || r.same(r.apex(walk->at), name)) return true;
+  if (!walk->backward) {
+    walk->at = r.twins[previous_half_edge(walk->at)];
+    walk->done = walk->at == walk->first;
+    if (walk->at != k_none || walk->done) return false;
+    walk->backward = true;
+    walk->at = walk->first;
+  }
+  const uint32_t across = r.twins[walk->at];
+  walk->done = across == k_none;
+  if (!walk->done) walk->at = next_half_edge(across);
+  return false;
+}
+
+static bool is_copied(const LoopRefinement& r, uint32_t v) {
+  return v < r.copied.size() && r.copied[v] != 0;
+}
+
+// Whether an edge joins the origins of two half-edges, or places of the same names. The stars are
+// walked round by turns, for one of them may have thousands of triangles.
+static bool joined(const LoopRefinement& r, uint32_t from, uint32_t to) {
+  const uint32_t a = r.origin(from), b = r.origin(to);
+  StarWalk near = {from, from, false, false}, far = {to, to, false, false};
+  // Seen from a copy the other one may be joined to another copy.
+  const bool both = !is_copied(r, a) && !is_copied(r, b);
+  while (!near.done && !(both && far.done)) {
+    if (meets_and_steps(r, b, &near)) return true;
+    if (both && meets_and_steps(r, a, &far)) return true;
   }
   return false;
 }
@@ -134,7 +163,7 @@ static bool improves_by_flip(const LoopRefinement& r, uint32_t h) {
   const Vec3 facing = unit(cross(b - a, c - a) + cross(a - b, d - b));
   if (!(dot(unit(cross(d - a, c - a)), facing) > k_least_facing)) return false;
   if (!(dot(unit(cross(b - d, c - d)), facing) > k_least_facing)) return false;
-  return !joined(r, previous_half_edge(h), q.d);
+  return !joined(r, previous_half_edge(h), previous_half_edge(r.twins[h]));
 }
 
 static void set_twins(LoopRefinement* r, uint32_t h, uint32_t g) {
@@ -335,7 +364,9 @@ static Status limit_points(LoopRefinement* r) {
   if (!(points + r->rim < 5e7)) {
     return fail(Code::too_large, "the spacing is too small for the size of the patch");
   }
-  r->most_points = static_cast<size_t>(4.0 * points + 24.0 * r->rim + 1024.0);
+  // Without relaxation the needles at a rim of very unequal edges are split on and on.
+  const double layers = r->may_relax ? 24.0 : 2.0;
+  r->most_points = static_cast<size_t>(4.0 * points + layers * r->rim + 1024.0);
   return {};
 }
 
@@ -423,6 +454,21 @@ Status refine_loops(Context& context, double spacing, Span<const uint32_t> start
   return refine_loops(context, spacing, start, {start[start.size() - 1], {}}, position, triangle);
 }
 
+static Status find_copies(Span<const uint32_t> name, Array<uint8_t>* copied) {
+  Array<uint32_t> order(copied->context());
+  TRY(order.resize(name.size()));
+  TRY(copied->assign(name.size(), 0));
+  for (uint32_t v = 0; v < order.size(); ++v) order[v] = v;
+  sort(order.span(),
+       [&](uint32_t u, uint32_t v) { return name[u] != name[v] ? name[u] < name[v] : u < v; });
+  for (size_t i = 1; i < order.size(); ++i) {
+    if (name[order[i]] == name[order[i - 1]]) {
+      (*copied)[order[i]] = (*copied)[order[i - 1]] = 1;
+    }
+  }
+  return {};
+}
+
 Status refine_patch(Context& context, double spacing, bool relax, Span<const uint32_t> name,
                     Array<Vec3>* position, Array<uint32_t>* triangle) {
   const uint32_t held = static_cast<uint32_t>(position->size());
@@ -430,6 +476,7 @@ Status refine_patch(Context& context, double spacing, bool relax, Span<const uin
   LoopRefinement r(context, {all_held, 2}, spacing, position, triangle);
   r.name = name;
   r.may_relax = relax;
+  TRY(find_copies(name, &r.copied));
   TRY(find_twins(held, triangle->span(), &r.twins));
   TRY(wish_sizes_of_patch(&r));
   return refine_all(&r);
