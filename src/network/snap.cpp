@@ -482,7 +482,7 @@ Status Snapper::plan(Span<const Approach> approaches, Array<uint8_t>* pass) {
     ++others;
     exact += a.distance <= k_exact * tolerance_;
   }
-  exact_ = 4 * exact >= 3 * others;
+  exact_ = !complete_ && 4 * exact >= 3 * others;
   for (size_t k = 0; k < pass->size() && !exact_; ++k) (*pass)[k] = k_crosses;
   return {};
 }
