@@ -60,16 +60,17 @@ static Status list_patch_curves(const network::Network& network, PatchList* patc
 // Meshes all patches; with `partial` those that can be, the network being cut down to them.
 // `original`: the number of each patch that is left; empty where all are.
 static Status make_patches(const curves::Curves& fitted, const Settings& settings,
-                           Array<network::Node>* nodes, network::Network* network,
-                           network::CurveVertices* vertices, network::PatchMesh* patches,
-                           Array<uint32_t>* original, Surface* surface) {
+                           Span<const Status> faults, Array<network::Node>* nodes,
+                           network::Network* network, network::CurveVertices* vertices,
+                           network::PatchMesh* patches, Array<uint32_t>* original,
+                           Surface* surface) {
   const bool in_space =
       settings.method == smooth::Method::iterated || settings.method == smooth::Method::fair;
   const double least_facing = in_space ? k_least_facing : -1.0;
   Counts* counts = &surface->counts;
   Context& context = nodes->context();
   TRY(list_patch_curves(*network, &surface->patches));
-  TRY(network::mesh_patches(*network, *vertices, least_facing, settings.partial, patches));
+  TRY(network::mesh_patches(*network, *vertices, least_facing, settings.partial, patches, faults));
   TRY(surface->patches.way.resize(patches->way.size()));
   for (size_t p = 0; p < patches->way.size(); ++p) {
     surface->patches.way[p] = static_cast<uint8_t>(patches->way[p]);
@@ -137,6 +138,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   Constraints constraints(context);
   Array<Vec3> given(context);
   Array<uint32_t> original(context), inner_edge(context);
+  Array<Status> faults(context);
 
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
@@ -146,7 +148,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(fit_curves(context, set, size, settings.smoothing, &nodes, &fitted, counts));
 
   TRY(context.enter(Stage::network));
-  TRY(network::find_patches(fitted, set.boundary, nodes.span(), &network));
+  TRY(network::find_patches(fitted, set.boundary, nodes.span(), &network,
+                            settings.partial ? &faults : nullptr));
   counts->segments = static_cast<uint32_t>(network.segment.size());
   counts->patches = network.patches();
   TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
@@ -157,7 +160,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   counts->patches = network.patches();
 
   TRY(context.enter(Stage::patches));
-  TRY(make_patches(fitted, settings, &nodes, &network, &vertices, &patches, &original, surface));
+  TRY(make_patches(fitted, settings, faults.span(), &nodes, &network, &vertices, &patches,
+                   &original, surface));
   TRY(list_curve_edges(network, vertices, surface));
   TRY(list_inner_edges(network, vertices, &inner_edge));
   counts->patches = network.patches();

@@ -267,8 +267,9 @@ typedef struct wsk_options {
                        void* user);
   void* parallel_for_user;
   /* Non-zero: a patch that cannot be made is left out, and the surface ends round it; which ones
-     these are, and why, stands in wsk_surface_view. The call fails only where no patch can be made,
-     or where those that are left touch in a node without sharing a curve. */
+     these are, and why, stands in wsk_surface_view; where those that are left touch in a node
+     without sharing a curve, each has a vertex of its own there. The call fails only where no patch
+     can be made. */
   int32_t partial;
 } wsk_options;
 

@@ -121,7 +121,8 @@ static void judge_by_area(const Graph& graph, const Cycles& cycles, uint32_t h, 
 
 // Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for
 // sure, or else when they run clockwise.
-static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* judged) {
+static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* judged,
+                           Array<Status>* faults) {
   Context& context = judged->outside.context();
   Array<uint8_t> inner(context);  // has a segment that is no boundary
   TRY(inner.assign(cycles.count, 0));
@@ -157,8 +158,14 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* jud
                        "must be tagged as boundary, and no other";
     }
     if (sentence == nullptr) continue;
-    return fail_at_sample(Code::open_network, sentence, segment.curve,
-                          graph.curve_of(h).sample[segment.first_knot]);
+    const Status status = fail_at_sample(Code::open_network, sentence, segment.curve,
+                                         graph.curve_of(h).sample[segment.first_knot]);
+    if (faults == nullptr) return status;
+    (*faults)[h / 2] = status;
+  }
+  // What lies there is to be named as a patch that fails.
+  for (uint32_t h = 0; faults != nullptr && h < halves; ++h) {
+    if (!(*faults)[h / 2].ok()) judged->outside[cycles.cycle[h]] = 0;
   }
   return {};
 }
@@ -213,7 +220,8 @@ static Status check_handles(const Graph& graph, Span<const uint32_t> loops,
 // The loops and the inner segments of the cycle through h become a patch, or a loose piece where it
 // has no loops.
 static Status collect_patch(const Graph& graph, const Cycles& cycles, uint32_t h, bool ring,
-                            Span<uint8_t> done, Span<uint32_t> parent, Network* network) {
+                            Span<uint8_t> done, Span<uint32_t> parent, Network* network,
+                            Array<Status>* faults) {
   const uint32_t first_loop = network->loop.count();
   Array<uint32_t> inner(network->segment.context());
   uint32_t g = h;
@@ -239,12 +247,16 @@ static Status collect_patch(const Graph& graph, const Cycles& cycles, uint32_t h
   for (uint32_t s : inner) TRY(list->item.push(s));
   TRY(list->close());
   if (inner.empty()) return {};
-  return check_handles(graph, halves, inner.span(),
-                       loops > first_loop ? network->patches() - 1 : k_none, parent);
+  const bool loose = loops == first_loop;
+  const Status status =
+      check_handles(graph, halves, inner.span(), loose ? k_none : network->patches() - 1, parent);
+  if (status.ok() || loose || faults == nullptr) return status;
+  (*faults)[inner[0]] = status;
+  return {};
 }
 
 static Status collect_patches(const Graph& graph, const Cycles& cycles, const Judged& judged,
-                              Network* network) {
+                              Network* network, Array<Status>* faults) {
   Context& context = network->patch_start.context();
   Array<uint8_t> done(context);
   Array<uint32_t> parent(context);
@@ -256,14 +268,15 @@ static Status collect_patches(const Graph& graph, const Cycles& cycles, const Ju
   for (uint32_t h = 0; h < cycles.next.size(); ++h) {
     const uint32_t c = cycles.cycle[h];
     if (judged.outside[c] || done[h]) continue;
-    TRY(collect_patch(graph, cycles, h, judged.ring[c] != 0, done.span(), parent.span(), network));
+    TRY(collect_patch(graph, cycles, h, judged.ring[c] != 0, done.span(), parent.span(), network,
+                      faults));
     if (h % 4096 == 4095) TRY(context.checkpoint());
   }
   return {};
 }
 
 Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
-                    Span<const Node> nodes, Network* network) {
+                    Span<const Node> nodes, Network* network, Array<Status>* faults) {
   Context& context = network->segment.context();
   for (uint32_t c = 0; c < curves.size(); ++c) {
     TRY(cut_curve(curves[c], c, boundary[c] != 0, &network->segment));
@@ -273,10 +286,11 @@ Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
   Judged judged(context);
   TRY(cycles.next.resize(2 * network->segment.size()));
   TRY(cycles.cycle.assign(2 * network->segment.size(), k_none));
-  TRY(link_half_segments(graph, cycles.next.span()));
+  if (faults != nullptr) TRY(faults->assign(network->segment.size(), Status{}));
+  TRY(link_half_segments(graph, cycles.next.span(), faults));
   number_cycles(&cycles);
-  TRY(find_outside(graph, cycles, &judged));
-  return collect_patches(graph, cycles, judged, network);
+  TRY(find_outside(graph, cycles, &judged, faults));
+  return collect_patches(graph, cycles, judged, network, faults);
 }
 
 }  // namespace wireskin::network

@@ -77,7 +77,9 @@ struct Network {
 // own. Fails with open_network at ends without node, at boundary curves with surface on both sides
 // and at curves where there is no surface, with tangent_normal or inconsistent_normals at nodes
 // whose segments have no order, with patch_several_loops where a patch would have a handle.
+// `faults`, if given, gets what is wrong at each segment instead, except for ends without node and
+// handles of loose pieces: no patch at such a segment is to be made.
 Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
-                    Span<const Node> nodes, Network* network);
+                    Span<const Node> nodes, Network* network, Array<Status>* faults = nullptr);
 
 }  // namespace wireskin::network

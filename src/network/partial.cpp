@@ -1,5 +1,7 @@
 #include "network/partial.h"
 
+#include "network/wires.h"
+
 namespace wireskin::network {
 
 namespace {
@@ -54,6 +56,71 @@ static Status copy_patch(const Network& old, uint32_t p, const Renumbering& fres
   return result->patch_start.push(result->loop.count());
 }
 
+// Joins those ends of segments (2 s where s begins, 2 s + 1 where it ends) that patches join at
+// their nodes: half-segment h leaves at end h. `first` is scratch: of each node, an end that the
+// patch has there.
+static void join_ends(const Network& network, Array<uint32_t>* first, DisjointSets* ends) {
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    for (uint32_t l = network.patch_start[p]; l < network.patch_start[p + 1]; ++l) {
+      const Span<const uint32_t> loop = network.loop[l];
+      for (size_t i = 0; i < loop.size(); ++i) {
+        const uint32_t h = loop[i], before = loop[i == 0 ? loop.size() - 1 : i - 1];
+        const Segment& segment = network.segment[h / 2];
+        if (segment.from == k_none) continue;
+        ends->unite(h, opposite(before));
+        (*first)[h % 2 == 0 ? segment.from : segment.to] = h;
+      }
+    }
+    for (uint32_t s : network.inner[p]) {
+      const uint32_t node[2] = {network.segment[s].from, network.segment[s].to};
+      for (uint32_t k = 0; k < 2; ++k) {
+        if (node[k] == k_none) continue;
+        uint32_t& known = (*first)[node[k]];
+        if (known == k_none) known = 2 * s + k;
+        ends->unite(known, 2 * s + k);
+      }
+    }
+    for (uint32_t h : network.cycle(p)) {
+      if (network.segment[h / 2].from == k_none) continue;
+      (*first)[network.segment[h / 2].from] = (*first)[network.segment[h / 2].to] = k_none;
+    }
+    for (uint32_t s : network.inner[p]) {
+      if (network.segment[s].from == k_none) continue;
+      (*first)[network.segment[s].from] = (*first)[network.segment[s].to] = k_none;
+    }
+  }
+}
+
+// Gives each fan of patches round a node a node of its own.
+static Status part_nodes(Array<Node>* nodes, Network* network) {
+  Context& context = nodes->context();
+  DisjointSets ends(context);
+  Array<uint32_t> first(context), own(context);
+  const uint32_t given = static_cast<uint32_t>(nodes->size());
+  const uint32_t count = 2 * static_cast<uint32_t>(network->segment.size());
+  TRY(ends.reset(count));
+  TRY(first.assign(given, k_none));
+  join_ends(*network, &first, &ends);
+  TRY(own.assign(count, k_none));  // of each set of ends: its node
+  Array<uint8_t> taken(context);
+  TRY(taken.assign(given, 0));
+  for (uint32_t e = 0; e < count; ++e) {
+    Segment& segment = network->segment[e / 2];
+    uint32_t& node = e % 2 == 0 ? segment.from : segment.to;
+    if (node == k_none) continue;
+    uint32_t& fan = own[ends.find(e)];
+    if (fan == k_none && !taken[node]) {
+      taken[node] = 1;
+      fan = node;
+    } else if (fan == k_none) {
+      fan = static_cast<uint32_t>(nodes->size());
+      TRY(nodes->push((*nodes)[node]));
+    }
+    node = fan;
+  }
+  return {};
+}
+
 Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
                     Array<uint32_t>* original) {
   Context& context = nodes->context();
@@ -84,7 +151,7 @@ Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* netw
   }
   nodes->shrink(kept);
   *network = static_cast<Network&&>(result);
-  return {};
+  return part_nodes(nodes, network);
 }
 
 }  // namespace wireskin::network

@@ -2,7 +2,8 @@
 //
 // In: nodes, network, and of each patch whether it could be made. Out: both without the patches
 // that could not, without the segments and nodes that bounded or held nothing else; a segment with
-// a patch left on one side only is boundary. O(segments).
+// a patch left on one side only is boundary. A node at which patches are left that share no curve
+// there becomes several, at the same point. O(segments).
 #pragma once
 
 #include "network/network.h"

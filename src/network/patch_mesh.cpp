@@ -474,8 +474,21 @@ static Status split_shared_chords(const Network& network, const CurveVertices& v
   return {};
 }
 
+// Why the patch is not to be made, its number included.
+static Status fault_of_patch(const Network& network, uint32_t patch, Span<const Status> faults) {
+  Status status;
+  for (uint32_t h : network.cycle(patch)) {
+    if (status.ok() && !faults.empty()) status = faults[h / 2];
+  }
+  for (uint32_t s : network.inner[patch]) {
+    if (status.ok() && !faults.empty()) status = faults[s];
+  }
+  status.place.patch = patch;
+  return status;
+}
+
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    bool partial, PatchMesh* mesh) {
+                    bool partial, PatchMesh* mesh, Span<const Status> faults) {
   Context& context = mesh->triangle.context();
   Builder builder(context, mesh);
   PatchScratch scratch(context);
@@ -485,11 +498,14 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
   TRY(mesh->placed.assign(mesh->vertices, 0));
   for (uint32_t p = 0; p < network.patches(); ++p) {
     TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    const Status status =
-        at_patch(mesh_patch(network, vertices, least_facing, p, &scratch, &builder), network, p);
+    Status status = fault_of_patch(network, p, faults);
+    const bool known = !status.ok();
+    scratch.spatial.raised = false;
+    if (!known) status = mesh_patch(network, vertices, least_facing, p, &scratch, &builder);
+    if (!known) status = at_patch(status, network, p);
     TRY(mesh->status.push(status));
     TRY(builder.raised.push(scratch.spatial.raised));
-    if (!status.ok() && !(partial && may_be_left_out(status))) return status;
+    if (!status.ok() && !(partial && (known || may_be_left_out(status)))) return status;
     if (!status.ok()) TRY(mesh->way.push(PatchWay::plane));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }

@@ -46,8 +46,9 @@ struct PatchMesh {
 // the patch and a curve of it, with patch_without_plane where the border runs clockwise, with
 // patch_folded where it crosses itself or encloses nothing in space either, where its normals ask
 // for a one-sided surface, or curves inside it cross. With `partial` such patches are left without
-// triangles, their vertices maybe too; it fails only where no patch can be made.
+// triangles, their vertices maybe too; it fails only where no patch can be made. `faults`: of each
+// segment why the patches at it are not to be made, as from find_patches; may be empty.
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    bool partial, PatchMesh* mesh);
+                    bool partial, PatchMesh* mesh, Span<const Status> faults = {});
 
 }  // namespace wireskin::network

@@ -287,14 +287,25 @@ static Status list_leaving(const Graph& graph, uint32_t halves, Rotation* rotati
   return {};
 }
 
-Status link_half_segments(const Graph& graph, Span<uint32_t> next) {
+// Sorts the half-segments round all nodes by their directions there.
+static Status sort_nodes(const Graph& graph, Rotation* rotation, Array<Status>* faults) {
+  for (uint32_t node = 0; node < graph.nodes.size(); ++node) {
+    const Span<Leaving> round = rotation->round(node);
+    if (node % 4096 == 4095) TRY(rotation->start.context().checkpoint());
+    if (round.empty()) continue;
+    const Status status = sort_round_node(graph, node, round);
+    if (status.ok()) continue;
+    if (faults == nullptr) return status;
+    for (const Leaving& l : round) (*faults)[l.half_segment / 2] = status;
+  }
+  return {};
+}
+
+Status link_half_segments(const Graph& graph, Span<uint32_t> next, Array<Status>* faults) {
   Context& context = graph.curves.start.context();
   Rotation rotation(context);
   TRY(list_leaving(graph, static_cast<uint32_t>(next.size()), &rotation));
-  for (uint32_t node = 0; node < graph.nodes.size(); ++node) {
-    if (!rotation.round(node).empty()) TRY(sort_round_node(graph, node, rotation.round(node)));
-    if (node % 4096 == 4095) TRY(context.checkpoint());
-  }
+  TRY(sort_nodes(graph, &rotation, faults));
   TRY(sort_borders(graph, &rotation));
   for (uint32_t h = 0; h < next.size(); ++h) next[h] = h;  // so it stays for curves without node
   for (uint32_t node = 0; node < graph.nodes.size(); ++node) {

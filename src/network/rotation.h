@@ -31,7 +31,8 @@ struct Graph {
 };
 
 // `next` has two elements for each segment. Fails with tangent_normal or inconsistent_normals at
-// nodes whose segments have no order.
-Status link_half_segments(const Graph& graph, Span<uint32_t> next);
+// nodes whose segments have no order; if `faults` is given, these segments get that status there,
+// and any order.
+Status link_half_segments(const Graph& graph, Span<uint32_t> next, Array<Status>* faults);
 
 }  // namespace wireskin::network

@@ -482,7 +482,7 @@ Status Snapper::plan(Span<const Approach> approaches, Array<uint8_t>* pass) {
     ++others;
     exact += a.distance <= k_exact * tolerance_;
   }
-  exact_ = 4 * exact >= 3 * others;
+  exact_ = !complete_ && 4 * exact >= 3 * others;
   for (size_t k = 0; k < pass->size() && !exact_; ++k) (*pass)[k] = k_crosses;
   return {};
 }
@@ -677,21 +677,6 @@ Status Snapper::write(Wires* out) {
     out->soft.push_reserved(wires_.soft[c]);
     out->start.push_reserved(out->samples());
   }
-  return {};
-}
-
-Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance) {
-  Array<double> lengths(wires.position.context());
-  TRY(lengths.reserve(wires.samples()));
-  for (uint32_t c = 0; c < wires.curves(); ++c) {
-    for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
-      const uint32_t j = wires.next(c, i);
-      if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
-    }
-  }
-  sort(lengths.span(), [](double a, double b) { return a < b; });
-  const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
-  *tolerance = median < 0.01 * diagonal ? median : 0.01 * diagonal;
   return {};
 }
 

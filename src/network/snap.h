@@ -26,10 +26,6 @@ struct Snap {
   SnapKind kind = SnapKind::end_end;
 };
 
-// The median edge, which is about what
-// strokes miss each other by, but at most 1/100 of the diagonal of the bounding box.
-Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance);
-
 struct SnapResult {
   Array<Snap> snaps;
   uint32_t open_before = 0;  // pairs of components nearer than the tolerance

@@ -143,4 +143,19 @@ Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* c
   return {};
 }
 
+Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance) {
+  Array<double> lengths(wires.position.context());
+  TRY(lengths.reserve(wires.samples()));
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
+      const uint32_t j = wires.next(c, i);
+      if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
+    }
+  }
+  sort(lengths.span(), [](double a, double b) { return a < b; });
+  const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
+  *tolerance = median < 0.01 * diagonal ? median : 0.01 * diagonal;
+  return {};
+}
+
 }  // namespace wireskin::network

@@ -112,4 +112,8 @@ Status list_members(const Wires& wires, PointMembers* members);
 // `component` of each curve is numbered from zero in the order of the curves.
 Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* counts);
 
+// What curves that are to meet may miss each other by: the median edge, which is about what strokes
+// do, but at most 1/100 of the diagonal of the bounding box.
+Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance);
+
 }  // namespace wireskin::network

@@ -462,3 +462,92 @@ TEST_CASE("rings on top of a torus: what lies in the plane of a ring is inside i
   }
   CHECK(worst < 0.05);
 }
+
+// A square of 2 x 2 squares of side 2, corners at the origin and (4, 4). Where `dangling` says so,
+// a boundary curve runs into the square without an end there.
+static Net four_squares(const std::vector<int>& dangling) {
+  Net net;
+  const auto line = [&net](std::vector<double> from, std::vector<double> to, bool boundary,
+                           std::vector<uint32_t> nodes) {
+    Line made;
+    made.boundary = boundary;
+    const size_t n = 8 * (nodes.size() - 1);
+    for (size_t k = 0; k <= n; ++k) {
+      const double t = static_cast<double>(k) / static_cast<double>(n);
+      made.position.insert(made.position.end(),
+                           {(1 - t) * from[0] + t * to[0], (1 - t) * from[1] + t * to[1], 0});
+      made.normal.insert(made.normal.end(), {0, 0, 1});
+      made.node.push_back(k % 8 == 0 ? nodes[k / 8] : WSK_NONE);
+    }
+    net.lines.push_back(made);
+  };
+  for (uint32_t i = 0; i < 3; ++i) {
+    const double at = 2.0 * i;
+    line({0, at}, {4, at}, i != 1, {3 * i, 3 * i + 1, 3 * i + 2});
+    line({at, 0}, {at, 4}, i != 1, {i, 3 + i, 6 + i});
+  }
+  for (const int square : dangling) {
+    const double x = 2 * (square % 2), y = 2 * (square / 2);
+    const uint32_t corner = 4;  // the one in the middle
+    line({2, 2}, {x + 1, y + 1}, true, {corner, WSK_NONE});
+  }
+  return net;
+}
+
+TEST_CASE("partial: a dangling boundary curve fails its own patch only") {
+  const Net net = four_squares({2});
+  const Built strict(net);
+  CHECK(strict.status == WSK_ERROR_OPEN_NETWORK);
+  CHECK(strict.report.curve == 6);
+  const Built b(net, true);
+  REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+  CHECK(b.report.patches == 4);
+  CHECK(b.report.failed_patches == 1);
+  CHECK(b.report.euler_characteristic == 1);
+  for (uint32_t p = 0; p < 4; ++p) {
+    if (b.view.patch_status[p] == WSK_OK) continue;
+    CHECK(b.view.patch_status[p] == WSK_ERROR_OPEN_NETWORK);
+    CHECK(b.view.patch_curve_start[p + 1] - b.view.patch_curve_start[p] == 5);
+    CHECK(b.view.patch_curves[b.view.patch_curve_start[p + 1] - 1] == 6);
+  }
+  double area = 0.0;
+  for (uint32_t t = 0; t < b.view.triangle_count; ++t) {
+    const double* p[3];
+    for (int k = 0; k < 3; ++k) p[k] = &b.view.positions[3 * b.view.triangles[3 * t + k]];
+    area += 0.5 *
+            ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]));
+  }
+  CHECK(std::fabs(area - 12.0) < 1e-9);
+}
+
+TEST_CASE("partial: patches that are left touch at a node, each with a vertex of its own") {
+  const Built b(four_squares({0, 3}), true);
+  REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+  CHECK(b.report.failed_patches == 2);
+  CHECK(b.report.components == 2);
+  CHECK(b.report.euler_characteristic == 2);
+  int at_middle = 0;
+  for (uint32_t v = 0; v < b.view.vertex_count; ++v) {
+    const double* p = &b.view.positions[3 * v];
+    at_middle += p[0] == 2.0 && p[1] == 2.0 && p[2] == 0.0;
+  }
+  CHECK(at_middle == 2);
+}
+
+TEST_CASE("partial: an inner curve that is tagged as boundary fails the patches at it") {
+  Net net = four_squares({});
+  Line half = net.lines[3];  // the vertical one in the middle: its lower half is tagged
+  Line tagged = half;
+  tagged.boundary = true;
+  tagged.position.resize(3 * 9), tagged.normal.resize(3 * 9), tagged.node.resize(9);
+  half.position.erase(half.position.begin(), half.position.begin() + 24);
+  half.normal.erase(half.normal.begin(), half.normal.begin() + 24);
+  half.node.erase(half.node.begin(), half.node.begin() + 8);
+  net.lines[3] = half;
+  net.lines.push_back(tagged);
+  CHECK(Built(net).status == WSK_ERROR_OPEN_NETWORK);
+  const Built b(net, true);
+  REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+  CHECK(b.report.failed_patches == 2);
+  CHECK(b.report.euler_characteristic == 1);
+}

@@ -39,36 +39,20 @@ const Cuts k_cuts[] = {
     {"stability-networks/leaf.obj", k_three, k_two, {}},
 };
 
-std::vector<Plane> planes_of(const Mesh& mesh, const Cuts& cuts) {
-  std::vector<Plane> planes;
-  const std::vector<double>* fractions[] = {&cuts.x, &cuts.y, &cuts.z};
-  for (size_t axis = 0; axis < 3; ++axis) {
-    double low = 1e300, high = -1e300;
-    for (const Point& p : mesh.positions) {
-      low = std::min(low, p[axis]);
-      high = std::max(high, p[axis]);
-    }
-    Point normal = {0.0, 0.0, 0.0};
-    normal[axis] = 1.0;
-    for (double f : *fractions[axis]) planes.push_back({normal, low + f * (high - low)});
-  }
-  return planes;
-}
-
 }  // namespace
 
 TEST_CASE("networks cut by planes are surfaced as the mesh they come from") {
   size_t found = 0;
   std::printf("%-36s %7s %7s %6s %9s %9s %9s\n", "mesh", "curves", "patches", "Euler", "in space",
               "RMS/1000", "max/1000");
-  for (const Cuts& cuts : k_cuts) {
-    const std::string path = data_file(cuts.file);
+  for (const Cuts& planes : k_cuts) {
+    const std::string path = data_file(planes.file);
     if (path.empty()) continue;
     ++found;
-    CAPTURE(std::string(cuts.file));
+    CAPTURE(std::string(planes.file));
     const Mesh mesh = cuts::read_mesh(path);
     RealCase c;
-    c.network = cut(mesh, planes_of(mesh, cuts));
+    c.network = cut(mesh, cuts::planes_along_axes(mesh, planes.x, planes.y, planes.z));
     c.truth = std::make_shared<MeshDistance>(mesh);
     const double size = c.truth->diagonal();
     const Result result = build(c.network, WSK_METHOD_FAIR, size / 60.0);
@@ -77,11 +61,11 @@ TEST_CASE("networks cut by planes are surfaced as the mesh they come from") {
     CAPTURE(result.report.patch);
     CHECK(result.status == WSK_OK);
     if (result.status != WSK_OK) {
-      std::printf("%-36s %7zu %s\n", cuts.file, c.network.curves.size(), result.report.sentence);
+      std::printf("%-36s %7zu %s\n", planes.file, c.network.curves.size(), result.report.sentence);
       continue;
     }
     const RealError error = real_error(result, c);
-    std::printf("%-36s %7zu %7u %6d %9u %9.2f %9.1f\n", cuts.file, c.network.curves.size(),
+    std::printf("%-36s %7zu %7u %6d %9u %9.2f %9.1f\n", planes.file, c.network.curves.size(),
                 result.report.patches, result.report.euler_characteristic,
                 result.report.minimal_area_patches, 1000.0 * error.rms / size,
                 1000.0 * error.max / size);

@@ -115,6 +115,24 @@ Mesh read_mesh(const std::string& path) {
   return mesh;
 }
 
+std::vector<networks::Plane> planes_along_axes(const Mesh& mesh, const std::vector<double>& x,
+                                               const std::vector<double>& y,
+                                               const std::vector<double>& z) {
+  std::vector<networks::Plane> planes;
+  const std::vector<double>* fractions[] = {&x, &y, &z};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    double low = 1e300, high = -1e300;
+    for (const networks::Point& p : mesh.positions) {
+      low = std::min(low, p[axis]);
+      high = std::max(high, p[axis]);
+    }
+    networks::Point normal = {0.0, 0.0, 0.0};
+    normal[axis] = 1.0;
+    for (double f : *fractions[axis]) planes.push_back({normal, low + f * (high - low)});
+  }
+  return planes;
+}
+
 long euler_characteristic(const Mesh& mesh) {
   std::set<uint32_t> vertices;
   for (const auto& t : mesh.triangles) vertices.insert(t.begin(), t.end());

@@ -12,6 +12,12 @@ namespace cuts {
 // than 100 degrees, and at vertices where two borders meet; of the rest the largest connected part.
 networks::Mesh read_mesh(const std::string& path);
 
+// Planes at these fractions of the mesh's bounding box along x, y and z.
+std::vector<networks::Plane> planes_along_axes(const networks::Mesh& mesh,
+                                               const std::vector<double>& x,
+                                               const std::vector<double>& y,
+                                               const std::vector<double>& z);
+
 long euler_characteristic(const networks::Mesh& mesh);
 
 }  // namespace cuts

@@ -123,3 +123,39 @@ TEST_CASE("random grids of lines with gaps at every crossing are joined") {
     CHECK(net.counts.components == 1);
   }
 }
+
+TEST_CASE("curves drawn on a surface: crossings stay where they are, however near they are") {
+  // A fan of lines through three points within the tolerance of each other, no three at one point.
+  Snapped net;
+  net.add(line({-1, 0, 0}, {1, 0, 0}, 40));
+  net.add(line({-1, -1.01, 1e-5}, {1, 0.99, 1e-5}, 41));
+  net.add(line({-1, 1.02, -1e-5}, {1, -0.98, -1e-5}, 42));
+  net.snap(0.05);
+  CHECK(net.result.snaps.size() == 3);
+  CHECK(net.counts.nodes == 3);
+  for (const Snap& snap : net.result.snaps) CHECK(snap.distance < 3e-5);
+}
+
+TEST_CASE("curves drawn on a surface: those side by side stay apart where others join them") {
+  Snapped net;
+  for (const double x : {-0.5, 0.5}) net.add(line({x, -1, 0}, {x, 1, 0}, 40));
+  // Nearest to each other between the two, half the tolerance.
+  net.add(
+      {{-1, 0.1, 1e-6}, {-0.4, 0.04, 1e-6}, {0, 0.0125, 1e-6}, {0.4, 0.04, 1e-6}, {1, 0.1, 1e-6}});
+  net.add({{-1, -0.1, 0}, {-0.4, -0.04, 0}, {0, -0.0125, 0}, {0.4, -0.04, 0}, {1, -0.1, 0}});
+  net.snap(0.05);
+  CHECK(net.counts.nodes == 4);
+  CHECK(net.counts.components == 1);
+}
+
+TEST_CASE("curves drawn on a surface: an end on a border is not taken away by a crossing near it") {
+  Snapped net;
+  net.add(line({-1, 0, 0}, {1, 0, 0}, 40));          // the border
+  net.add(line({0.01, 0, 1e-6}, {0.01, 1, 0}, 40));  // ends on it
+  net.add(line({-1, 0.02, 0}, {1, 0.04, 0}, 40));    // crosses that just before
+  net.add(line({-0.51, -1, 0}, {-0.52, 1, 0}, 40));
+  net.snap(0.05);
+  CHECK(net.counts.nodes == 5);  // one where the third begins beside the border
+  CHECK(net.wires.position[net.wires.start[1]].y == doctest::Approx(0.0));
+  CHECK(net.result.snaps.size() == 5);
+}
