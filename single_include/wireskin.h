@@ -125,8 +125,9 @@ enum {
   /* A curve or a point bounds no patch and lies inside none; a boundary curve has the surface on
      both sides, or nothing tells on which. */
   WSK_ERROR_OPEN_NETWORK = 16,
-  /* Normals turn by more than 120 degrees between neighbouring samples, oppose each other at a
-     node, or leave the order of the curves round a node undecided. */
+  /* Normals turn by more than 120 degrees between neighbouring samples, point to different sides of
+     the surface there or at a node, or leave the order of the curves round a node undecided. If
+     only signs are wrong, wsk_connect_options.orient makes them agree. */
   WSK_ERROR_INCONSISTENT_NORMALS = 17,
   /* The normal of a node is parallel to a curve through it: it cannot be the surface's. */
   WSK_ERROR_TANGENT_NORMAL = 18,
@@ -201,7 +202,7 @@ enum {
 typedef int32_t wsk_smoothing;
 
 enum {
-  /* AUTO for WSK_METHOD_FAIR, NONE for all others. */
+  /* AUTO for WSK_METHOD_FAIR and for wsk_flow_build, NONE for all others. */
   WSK_SMOOTHING_DEFAULT = 0,
   /* The samples are exact: curves interpolate them and nodes keep their bits. */
   WSK_SMOOTHING_NONE = 1,
@@ -231,7 +232,8 @@ typedef struct wsk_options {
      two nodes is divided evenly, so distances differ a little from it. Ignored by
      wsk_smooth_mesh. */
   double spacing;
-  /* What is done about noise in the samples of wsk_build, before anything else. */
+  /* What is done about noise in the samples of wsk_build and wsk_flow_build, before anything else.
+   */
   wsk_smoothing smoothing;
   /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none.
    */
@@ -271,8 +273,9 @@ typedef struct wsk_options {
                        void* user);
   void* parallel_for_user;
   /* Non-zero: a patch that cannot be made is left out, and the surface ends round it; which ones
-     these are, and why, stands in wsk_surface_view. The call fails only where no patch can be made,
-     or where those that are left touch in a node without sharing a curve. */
+     these are, and why, stands in wsk_surface_view; where those that are left touch in a node
+     without sharing a curve, each has a vertex of its own there. The call fails only where no patch
+     can be made. */
   int32_t partial;
 } wsk_options;
 
@@ -322,7 +325,9 @@ typedef struct wsk_report {
 
   double spacing;       /* the spacing used, in your units; mean edge length for wsk_smooth_mesh */
   double min_angle_deg; /* the least angle of all triangles of the result */
-  double residual;      /* relative residual of the last linear solve, greatest of its columns */
+  /* Of the last linear system A x = b: |b - A x| / |b| in the Euclidean norm, the greatest of its
+     columns. Systems are solved to 1e-12, those of more vertices to 1e-11 or 1e-10. */
+  double residual;
   uint32_t factorisations;       /* Cholesky factorisations, of whatever size */
   uint32_t cg_iterations;        /* iterations of conjugate gradients with an earlier factor */
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
@@ -615,7 +620,8 @@ typedef struct wsk_network_view {
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other
- * curves know. At new joints normals are replaced by their mean.
+ * curves know. At new joints normals are replaced by their mean, unless they contradict each other:
+ * these are left for wsk_build to complain of.
  *
  * In the result every joint has a node number: the least that the caller gave there, or else one
  * that he did not use. What needed nothing comes out as it went in, bit for bit and in the same
@@ -753,6 +759,28 @@ typedef struct wsk_flow_run {
   uint32_t arc, from, to;
 } wsk_flow_run;
 
+typedef int32_t wsk_flow_normals;
+
+enum {
+  WSK_FLOW_NORMALS_NONE = 0, /* no curve has normals */
+  WSK_FLOW_NORMALS_USED = 1, /* they shaped the surface */
+  /* Curves that lack them or are sharp; points may lack them. */
+  WSK_FLOW_NORMALS_INCOMPLETE = 2,
+  /* Edges at which patches branch, or a one-sided surface would have to be turned; 0 if patches
+     only touch in points. */
+  WSK_FLOW_NORMALS_NOT_MANIFOLD = 3,
+  /* Vertices on a border that is no curve: nothing holds them. */
+  WSK_FLOW_NORMALS_FREE_BORDER = 4,
+  /* Vertices on curves where the normal points to the other side than the surface, turned as most
+     of them want it: more than a tenth. */
+  WSK_FLOW_NORMALS_CONTRADICTING = 5,
+  /* Pairs of triangles that crossed after the smoothing, a thousand at most. */
+  WSK_FLOW_NORMALS_CROSSING = 6,
+  /* Triangles are too thin for the smoothing; no places. */
+  WSK_FLOW_NORMALS_TOO_THIN = 7,
+  WSK_FLOW_NORMALS_COUNT = 8
+};
+
 /* What wsk_flow_build found, and how the last surface hangs together. Arrays belong to the flow and
    live until it makes another surface or is freed. */
 typedef struct wsk_flow_view {
@@ -777,8 +805,7 @@ typedef struct wsk_flow_view {
   uint32_t held_count;   /* patches that remeshing spared because they would have crossed others */
   uint32_t crossing_count; /* pairs of triangles that cross: none but for rounding */
   int32_t manifold; /* non-zero: every edge has at most two triangles, every vertex one fan */
-  int32_t smoothed; /* non-zero: the normals of the curves shaped it; not where triangles would
-                       have crossed then, or a border is no curve */
+  int32_t smoothed; /* non-zero: the normals of the curves shaped it; `normals` says more */
   const wsk_flow_patch* patches;
   uint32_t loop_count;
   const uint32_t* loop_first; /* loop l has the runs loop_first[l] .. loop_first[l + 1] */
@@ -787,12 +814,35 @@ typedef struct wsk_flow_view {
   const uint32_t* arc_first;     /* arc_count + 1 */
   const uint32_t* arc_vertices;  /* vertices of the surface; a closed arc repeats its first */
   const uint32_t* bare_vertices; /* two for each bare segment */
+
+  /* What became of the normals, and at how many places (WSK_FLOW_NORMALS_... says of what) they
+     could not be used; in words "" where there are none or they are used, else static text. */
+  wsk_flow_normals normals;
+  uint32_t normals_places;
+  const char* normals_sentence;
+  /* Voids found worth enclosing, or as many as were asked for; fewer than that if the curves cage
+     no more. betti[2] are those that the surface encloses in the end. */
+  uint32_t caged_count;
 } wsk_flow_view;
 
 /* Samples the curves and finds the voids. Curves join where samples carry the same node number or
- * coincide; curves of one sample are points. Normals are not needed: null, or given for all curves,
- * and then they shape the surface. A curve's boundary, soft and sharp are not read, but sharp
- * curves count as having no normals. `options` and `flow_options` may be null (defaults). On
+ * coincide; curves of one sample are points. Normals are not needed: null, or given for all curves
+ * but points, and then they shape the surface.
+ *
+ * Noise is taken out first, as wsk_options.smoothing says, over the curves that fragments form;
+ * unless told otherwise it is looked for, and samples without noise, or with less than a hundred
+ * thousandth of the diagonal, keep their bits. Corners, where a curve turns by more than 35 degrees
+ * and by more than its noise explains, stay corners.
+ *
+ * Junctions, ends, corners and isolated points, as they are after that, are vertices of the result,
+ * bit for bit. Without normals all other vertices on curves lie on the polyline through the
+ * samples; with normals they lie on smooth curves through them. No sample is farther from the
+ * polyline of the result than a twentieth of the sampling; the report of wsk_flow_surface says how
+ * far they are, noise included.
+ *
+ * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
+ * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial changes
+ * nothing, since no patch is left out ever. `options` and `flow_options` may be null (defaults). On
  * success *flow is to be given to wsk_flow_free; it keeps the allocator of the options, not the
  * callbacks. */
 WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
@@ -801,9 +851,10 @@ WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
 
 /* A surface like that of wsk_build. With normals it is smoothed by wsk_options.method where it is a
  * manifold and all its borders are curves; else, and without normals, it is made of the remeshed
- * patches, in which curvatures are zero if it is no manifold. No two triangles of it cross, for
- * which samples of curves that all but touch may stay where the jitter moved them. The surface
- * lives on without the flow. One flow makes one surface at a time. */
+ * patches, in which curvatures are zero if it is no manifold; wsk_flow_view.normals says why. The
+ * noise in the report is that of wsk_flow_build, wsk_options.smoothing is not read again. No two
+ * triangles of it cross, for which samples of curves that all but touch may stay where the jitter
+ * moved them. The surface lives on without the flow. One flow makes one surface at a time. */
 WSK_API wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
                                     const wsk_flow_options* flow_options, wsk_surface** surface,
                                     wsk_report* report);
@@ -911,134 +962,6 @@ inline constexpr uint32_t k_none = 0xffffffffu;
 
 }  /* namespace wireskin */
 /* ======== end src/base/platform.h ======== */
-
-/* ======== begin src/num/vec.h ======== */
-/* Vectors of the plane and of space: plain pairs and triples of doubles with the usual products. */
-/* */
-/* Sums run in the order written, from the left; with contraction off the bits are the same */
-/* everywhere. */
-
-namespace wireskin {
-
-/* Vec2 goes by reference everywhere: gcc 12 at -O1 and above may take a struct of two doubles that */
-/* is passed by value to an outlined function for zero (its ipa-modref pass; seen in */
-/* predicates.cpp). */
-struct Vec2 {
-  double x = 0.0, y = 0.0;
-};
-
-struct Vec3 {
-  double x = 0.0, y = 0.0, z = 0.0;
-};
-
-inline Vec2 operator+(const Vec2& a, const Vec2& b) {
-  return {a.x + b.x, a.y + b.y};
-}
-inline Vec2 operator-(const Vec2& a, const Vec2& b) {
-  return {a.x - b.x, a.y - b.y};
-}
-inline Vec2 operator*(double s, const Vec2& a) {
-  return {s * a.x, s * a.y};
-}
-inline double dot(const Vec2& a, const Vec2& b) {
-  return a.x * b.x + a.y * b.y;
-}
-inline double cross(const Vec2& a, const Vec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-inline double length(const Vec2& a) {
-  return std::sqrt(dot(a, a));
-}
-
-inline Vec3 operator+(const Vec3& a, const Vec3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vec3 operator-(const Vec3& a, const Vec3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vec3 operator-(const Vec3& a) {
-  return {-a.x, -a.y, -a.z};
-}
-inline Vec3 operator*(double s, const Vec3& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-inline Vec3& operator+=(Vec3& a, const Vec3& b) {
-  return a = a + b;
-}
-inline Vec3& operator-=(Vec3& a, const Vec3& b) {
-  return a = a - b;
-}
-inline bool operator==(const Vec3& a, const Vec3& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-inline bool operator!=(const Vec3& a, const Vec3& b) {
-  return !(a == b);
-}
-inline double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(const Vec3& a) {
-  return std::sqrt(dot(a, a));
-}
-
-/* The unit vector along `a`; the zero vector stays zero. */
-inline Vec3 unit(const Vec3& a) {
-  const double norm = length(a);
-  return norm > 0.0 ? (1.0 / norm) * a : Vec3{};
-}
-
-/* The component of `a` across the unit vector `n`. */
-inline Vec3 reject(const Vec3& a, const Vec3& n) {
-  return a - dot(a, n) * n;
-}
-
-}  /* namespace wireskin */
-/* ======== end src/num/vec.h ======== */
-
-/* ======== begin src/num/scale.h ======== */
-/* Scaling by exact powers of two: the C boundary brings every input to an extent of about one and */
-/* undoes it at the end, so that no stage sees 1e-150 or 1e150. Multiplying by a power of two rounds */
-/* nothing (short of underflow 300 orders of magnitude below the extent); a shift would, so there is */
-/* none. */
-
-namespace wireskin {
-
-/* The e with 2^(e-1) <= x < 2^e, for positive finite x. */
-inline int binary_exponent(double x) {
-  constexpr double k_two_to_54 = 18014398509481984.0;
-  constexpr double k_least_normal = 2.2250738585072014e-308;
-  const bool subnormal = x < k_least_normal;
-  if (subnormal) x *= k_two_to_54;
-  uint64_t bits = 0;
-  std::memcpy(&bits, &x, sizeof bits);
-  const int exponent = static_cast<int>(bits >> 52 & 0x7ff) - 1022;
-  return subnormal ? exponent - 54 : exponent;
-}
-
-/* 2^e for -1022 <= e <= 1023. */
-inline double power_of_two(int e) {
-  const uint64_t bits = static_cast<uint64_t>(e + 1023) << 52;
-  double x = 0.0;
-  std::memcpy(&x, &bits, sizeof x);
-  return x;
-}
-
-/* Multiplies by 2^e in two steps, because 2^e itself may not be representable. */
-class Scale {
- public:
-  explicit Scale(int e) : first_(power_of_two(e / 2)), second_(power_of_two(e - e / 2)) {}
-  double operator()(double x) const { return x * first_ * second_; }
-  Vec3 operator()(const Vec3& a) const { return {(*this)(a.x), (*this)(a.y), (*this)(a.z)}; }
-
- private:
-  double first_, second_;
-};
-
-}  /* namespace wireskin */
-/* ======== end src/num/scale.h ======== */
 
 /* ======== begin src/base/status.h ======== */
 /* What a failable function returns: a code, one English sentence and the place in the caller's */
@@ -1468,95 +1391,177 @@ inline uint32_t starts_from_counts(Span<uint32_t> counts) {
 }  /* namespace wireskin */
 /* ======== end src/base/array.h ======== */
 
-/* ======== begin src/mesh/mesh.h ======== */
-/* Triangle meshes: the plain arrays that the whole pipeline fills, their edge neighbours and the */
-/* check that every result passes. */
+/* ======== begin src/num/vec.h ======== */
+/* Vectors of the plane and of space: plain pairs and triples of doubles with the usual products. */
 /* */
-/* Triangles are three vertex indices, counter-clockwise from outside. Half-edge 3 t + k runs from */
-/* corner k of triangle t to corner k + 1. Its twin is the half-edge that runs the other way, k_none */
-/* on an open border. Everything is O(vertices + triangles), whatever the valences. */
+/* Sums run in the order written, from the left; with contraction off the bits are the same */
+/* everywhere. */
 
-namespace wireskin::mesh {
+namespace wireskin {
 
-/* Half-edge arithmetic. */
-inline uint32_t next_half_edge(uint32_t h) {
-  return h % 3 == 2 ? h - 2 : h + 1;
-}
-inline uint32_t previous_half_edge(uint32_t h) {
-  return h % 3 == 0 ? h + 2 : h - 1;
-}
-
-/* Finds the twin of every half-edge. Fails with bad_mesh, naming the triangle, where an index is */
-/* out of range, a triangle repeats a vertex, or two triangles have the same half-edge (an edge of */
-/* three triangles, or neighbours of opposite orientation). */
-Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* twins);
-
-struct Topology {
-  uint32_t edges = 0;
-  uint32_t components = 0;  /* of vertices joined by edges */
-  uint32_t boundary_loops = 0;
-  int32_t euler_characteristic = 0;
-  Array<uint8_t> on_border;   /* per vertex */
-  Array<uint32_t> component;  /* per vertex, numbered by least vertex */
-
-  explicit Topology(Context& context) : on_border(context), component(context) {}
+/* Vec2 goes by reference everywhere: gcc 12 at -O1 and above may take a struct of two doubles that */
+/* is passed by value to an outlined function for zero (its ipa-modref pass; seen in */
+/* predicates.cpp). */
+struct Vec2 {
+  double x = 0.0, y = 0.0;
 };
 
-/* Counts, and checks that the mesh is an oriented manifold with border: the triangles round every */
-/* vertex form one fan. Fails with bad_mesh and the vertex. A vertex without triangle fails too. */
-Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
-                     Topology* topology);
-
-/* Fails with bad_mesh and the triangle where one has no area. */
-Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles);
-
-/* The triangles round each vertex: those of v are corner[start[v] .. start[v + 1]), as half-edges */
-/* that leave v, in ascending order. */
-Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
-                    Array<uint32_t>* corner);
-
-/* The least angle of all triangles, in degrees. */
-double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles);
-
-/* For each vertex the patch of one of its triangles, given the patch of each triangle. */
-inline void patches_of_vertices(Span<const uint32_t> triangles, Span<const uint32_t> patch,
-                                Span<uint32_t> result) {
-  for (size_t h = 0; h < triangles.size(); ++h) result[triangles[h]] = patch[h / 3];
-}
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/mesh.h ======== */
-
-/* ======== begin src/mesh/measure.h ======== */
-/* Measures of a finished mesh: Gaussian curvature, how far its normals are from those given, and */
-/* how sharply it bends across curves. */
-/* */
-/* The Gaussian curvature of an inner vertex is its angle defect over its mixed Voronoi area; a */
-/* border vertex takes the mean of its neighbours inside. Angles are in degrees. O(triangles). */
-/* Source: M. Meyer, M. Desbrun, P. Schroeder, A. Barr, "Discrete Differential-Geometry Operators */
-/* for Triangulated 2-Manifolds", 2003. */
-
-namespace wireskin::mesh {
-
-struct AngleStatistics {
-  double mean = 0.0;
-  double greatest = 0.0;
+struct Vec3 {
+  double x = 0.0, y = 0.0, z = 0.0;
 };
 
-Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> triangles,
-                          Span<const uint8_t> on_border, Array<double>* curvature);
+inline Vec2 operator+(const Vec2& a, const Vec2& b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Vec2 operator-(const Vec2& a, const Vec2& b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline Vec2 operator*(double s, const Vec2& a) {
+  return {s * a.x, s * a.y};
+}
+inline double dot(const Vec2& a, const Vec2& b) {
+  return a.x * b.x + a.y * b.y;
+}
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double length(const Vec2& a) {
+  return std::sqrt(dot(a, a));
+}
 
-/* The angle between a normal and the one given, over the vertices where the latter is not zero. */
-AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given);
+inline Vec3 operator+(const Vec3& a, const Vec3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec3 operator-(const Vec3& a, const Vec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec3 operator-(const Vec3& a) {
+  return {-a.x, -a.y, -a.z};
+}
+inline Vec3 operator*(double s, const Vec3& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+inline Vec3& operator+=(Vec3& a, const Vec3& b) {
+  return a = a + b;
+}
+inline Vec3& operator-=(Vec3& a, const Vec3& b) {
+  return a = a - b;
+}
+inline bool operator==(const Vec3& a, const Vec3& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+inline bool operator!=(const Vec3& a, const Vec3& b) {
+  return !(a == b);
+}
+inline double dot(const Vec3& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(const Vec3& a) {
+  return std::sqrt(dot(a, a));
+}
 
-/* The angle between the triangles on both sides of an edge, over the edges of curves: those whose */
-/* ends are both on curves and, where `divided` says that curves divide patches, that do so. */
-Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
-                       Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
-                       AngleStatistics* dihedral);
+/* The unit vector along `a`; the zero vector stays zero. */
+inline Vec3 unit(const Vec3& a) {
+  const double norm = length(a);
+  return norm > 0.0 ? (1.0 / norm) * a : Vec3{};
+}
 
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/measure.h ======== */
+/* The component of `a` across the unit vector `n`. */
+inline Vec3 reject(const Vec3& a, const Vec3& n) {
+  return a - dot(a, n) * n;
+}
+
+}  /* namespace wireskin */
+/* ======== end src/num/vec.h ======== */
+
+/* ======== begin src/num/scale.h ======== */
+/* Scaling by exact powers of two: the C boundary brings every input to an extent of about one and */
+/* undoes it at the end, so that no stage sees 1e-150 or 1e150. Multiplying by a power of two rounds */
+/* nothing (short of underflow 300 orders of magnitude below the extent); a shift would, so there is */
+/* none. */
+
+namespace wireskin {
+
+/* The e with 2^(e-1) <= x < 2^e, for positive finite x. */
+inline int binary_exponent(double x) {
+  constexpr double k_two_to_54 = 18014398509481984.0;
+  constexpr double k_least_normal = 2.2250738585072014e-308;
+  const bool subnormal = x < k_least_normal;
+  if (subnormal) x *= k_two_to_54;
+  uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  const int exponent = static_cast<int>(bits >> 52 & 0x7ff) - 1022;
+  return subnormal ? exponent - 54 : exponent;
+}
+
+/* 2^e for -1022 <= e <= 1023. */
+inline double power_of_two(int e) {
+  const uint64_t bits = static_cast<uint64_t>(e + 1023) << 52;
+  double x = 0.0;
+  std::memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+/* Multiplies by 2^e in two steps, because 2^e itself may not be representable. */
+class Scale {
+ public:
+  explicit Scale(int e) : first_(power_of_two(e / 2)), second_(power_of_two(e - e / 2)) {}
+  double operator()(double x) const { return x * first_ * second_; }
+  Vec3 operator()(const Vec3& a) const { return {(*this)(a.x), (*this)(a.y), (*this)(a.z)}; }
+
+ private:
+  double first_, second_;
+};
+
+}  /* namespace wireskin */
+/* ======== end src/num/scale.h ======== */
+
+/* ======== begin src/api/input.h ======== */
+/* Positions and normals from the caller's arrays, checked one by one, and the power of two by which */
+/* they are scaled. */
+
+namespace wireskin::api {
+
+/* Rows of three doubles at any stride, aligned or not. */
+struct Rows {
+  const double* data;
+  size_t stride;
+
+  Vec3 operator[](size_t i) const {
+    double row[3];
+    const size_t step = stride == 0 ? sizeof row : stride;
+    std::memcpy(row, reinterpret_cast<const unsigned char*>(data) + i * step, sizeof row);
+    return {row[0], row[1], row[2]};
+  }
+};
+
+inline Place curve_place(size_t curve) {
+  Place place;
+  place.curve = static_cast<uint32_t>(curve);
+  return place;
+}
+
+inline Place sample_place(size_t curve, size_t sample) {
+  Place place;
+  place.curve = static_cast<uint32_t>(curve);
+  place.sample = static_cast<uint32_t>(sample);
+  return place;
+}
+
+double greatest_component(const Vec3& a);
+
+/* One position and normal, checked; the normal comes out unit whatever its length was. */
+Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position);
+Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal);
+
+/* The power of two that brings the extent of the points to one half up to one. */
+Status find_scale(Span<const Vec3> points, int* exponent);
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/input.h ======== */
 
 /* ======== begin src/sparse/csc.h ======== */
 /* Sparse matrices in compressed columns, the only matrix format of the library. */
@@ -1801,6 +1806,9 @@ enum class Noise {
 struct SmoothingOptions {
   Noise noise = Noise::estimate;
   double sigma = 0.0;  /* standard deviation of each component of the given positions */
+  /* Less noise than this in positions and in normals need not be found: where the least weight */
+  /* bounds it by that, no other is tried and nothing moves. */
+  double negligible = 0.0, negligible_normal = 0.0;
 };
 
 /* Of several connected components the mean squares of the noise, and the greatest weights. */
@@ -1819,6 +1827,143 @@ Status smooth_samples(Context& context, const KeptSamples& samples, const Smooth
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/smoothing.h ======== */
+
+/* ======== begin src/api/options.h ======== */
+/* Reading the structs of options: what every one of them is asked first, and what the options that */
+/* all calls share mean inside. Nothing else reads a caller's struct, whose size may be that of an */
+/* older version. */
+
+namespace wireskin::api {
+
+inline size_t least(size_t a, size_t b) {
+  return a < b ? a : b;
+}
+
+inline bool finite_and_not_negative(double x) {
+  return x >= 0.0 && x - x == 0.0;
+}
+
+/* Copies a caller's struct over the defaults that stand in *out, as much of it as his version has. */
+/* Null leaves the defaults. A size below `least_size`, that of the first release, means that he */
+/* forgot to initialise. */
+template <typename Struct>
+Status read_struct(const Struct* given, size_t least_size, const char* not_initialised,
+                   Struct* out) {
+  if (given == nullptr) return {};
+  if (given->size < least_size) return fail(Code::bad_argument, not_initialised);
+  std::memcpy(out, given, least(given->size, sizeof *out));
+  return {};
+}
+
+/* Fills a caller's struct with defaults, as much of it as his version has. */
+template <typename Struct>
+void write_defaults(const Struct& defaults, size_t size, Struct* out) {
+  std::memset(out, 0, size);
+  std::memcpy(out, &defaults, least(size, sizeof defaults));
+  out->size = size;
+}
+
+inline constexpr size_t k_options_size = offsetof(wsk_options, now_user) + sizeof(void*);
+
+Status read_options(const wsk_options* given, wsk_options* options);
+Allocator allocator_of(const wsk_options& options);
+Callbacks callbacks_of(const wsk_options& options);
+
+/* fair looks for noise unless told otherwise; the other methods take the samples as they are. */
+network::SmoothingOptions smoothing_of(const wsk_options& options, const Scale& scale);
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/options.h ======== */
+
+/* ======== begin src/mesh/mesh.h ======== */
+/* Triangle meshes: the plain arrays that the whole pipeline fills, their edge neighbours and the */
+/* check that every result passes. */
+/* */
+/* Triangles are three vertex indices, counter-clockwise from outside. Half-edge 3 t + k runs from */
+/* corner k of triangle t to corner k + 1. Its twin is the half-edge that runs the other way, k_none */
+/* on an open border. Everything is O(vertices + triangles), whatever the valences. */
+
+namespace wireskin::mesh {
+
+/* Half-edge arithmetic. */
+inline uint32_t next_half_edge(uint32_t h) {
+  return h % 3 == 2 ? h - 2 : h + 1;
+}
+inline uint32_t previous_half_edge(uint32_t h) {
+  return h % 3 == 0 ? h + 2 : h - 1;
+}
+
+/* Finds the twin of every half-edge. Fails with bad_mesh, naming the triangle, where an index is */
+/* out of range, a triangle repeats a vertex, or two triangles have the same half-edge (an edge of */
+/* three triangles, or neighbours of opposite orientation). */
+Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* twins);
+
+struct Topology {
+  uint32_t edges = 0;
+  uint32_t components = 0;  /* of vertices joined by edges */
+  uint32_t boundary_loops = 0;
+  int32_t euler_characteristic = 0;
+  Array<uint8_t> on_border;   /* per vertex */
+  Array<uint32_t> component;  /* per vertex, numbered by least vertex */
+
+  explicit Topology(Context& context) : on_border(context), component(context) {}
+};
+
+/* Counts, and checks that the mesh is an oriented manifold with border: the triangles round every */
+/* vertex form one fan. Fails with bad_mesh and the vertex. A vertex without triangle fails too. */
+Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
+                     Topology* topology);
+
+/* Fails with bad_mesh and the triangle where one has no area. */
+Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles);
+
+/* The triangles round each vertex: those of v are corner[start[v] .. start[v + 1]), as half-edges */
+/* that leave v, in ascending order. */
+Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
+                    Array<uint32_t>* corner);
+
+/* The least angle of all triangles, in degrees. */
+double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles);
+
+/* For each vertex the patch of one of its triangles, given the patch of each triangle. */
+inline void patches_of_vertices(Span<const uint32_t> triangles, Span<const uint32_t> patch,
+                                Span<uint32_t> result) {
+  for (size_t h = 0; h < triangles.size(); ++h) result[triangles[h]] = patch[h / 3];
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/mesh.h ======== */
+
+/* ======== begin src/mesh/measure.h ======== */
+/* Measures of a finished mesh: Gaussian curvature, how far its normals are from those given, and */
+/* how sharply it bends across curves. */
+/* */
+/* The Gaussian curvature of an inner vertex is its angle defect over its mixed Voronoi area; a */
+/* border vertex takes the mean of its neighbours inside. Angles are in degrees. O(triangles). */
+/* Source: M. Meyer, M. Desbrun, P. Schroeder, A. Barr, "Discrete Differential-Geometry Operators */
+/* for Triangulated 2-Manifolds", 2003. */
+
+namespace wireskin::mesh {
+
+struct AngleStatistics {
+  double mean = 0.0;
+  double greatest = 0.0;
+};
+
+Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> triangles,
+                          Span<const uint8_t> on_border, Array<double>* curvature);
+
+/* The angle between a normal and the one given, over the vertices where the latter is not zero. */
+AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given);
+
+/* The angle between the triangles on both sides of an edge, over the edges of curves: those whose */
+/* ends are both on curves and, where `divided` says that curves divide patches, that do so. */
+Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                       Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
+                       AngleStatistics* dihedral);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/measure.h ======== */
 
 /* ======== begin src/mesh/operators.h ======== */
 /* Discrete differential operators on triangle meshes, planar or spatial: cotangent Laplacian, mixed */
@@ -1906,9 +2051,10 @@ inline double spring(double share, double cutoff, int order) {
 /* */
 /* Invariants: all instruction sets, tilings and blockings give the same bits: every output takes */
 /* its terms one after the other in ascending order, multiplied and then subtracted, never fused, */
-/* and vectors stand across outputs. Matrices are stored column by column; rows come in multiples of */
-/* four, and those that pad a matrix are read and written like any other. Source of the blocking: */
-/* K. Goto, R. van de Geijn, "Anatomy of High-Performance Matrix Multiplication", 2008. */
+/* and vectors stand across outputs, but for dot products, whose eight partial sums they hold. */
+/* Matrices are stored column by column; rows come in multiples of four, and those that pad a matrix */
+/* are read and written like any other. Source of the blocking: K. Goto, R. van de Geijn, "Anatomy */
+/* of High-Performance Matrix Multiplication", 2008. */
 
 namespace wireskin::sparse {
 
@@ -1927,6 +2073,20 @@ struct Update {
   size_t c_step;
   bool lower;      /* entries above the diagonal are not needed */
   bool overwrite;  /* C counts as zero */
+};
+
+/* c[j + l * c_step] loses the sum over k < depth of a[k + j * a_step] * b[k + l * b_step], for j < */
+/* columns, l < lanes. The terms go to eight sums in turn, which are then added pairwise. */
+struct Dots {
+  uint32_t columns;
+  uint32_t lanes;
+  uint32_t depth;  /* a multiple of four */
+  const double* a;
+  size_t a_step;
+  const double* b;
+  size_t b_step;
+  double* c;
+  size_t c_step;
 };
 
 /* A lower triangle of at most eight columns: entries below the diagonal, inverses on it. */
@@ -1957,6 +2117,7 @@ inline bool needs_scratch(uint32_t rows, uint32_t depth) {
 
 struct DenseKernels {
   void (*update)(const Update& update, double* scratch);
+  void (*subtract_dots)(const Dots& dots);
   /* x := x L^-T for rows of length `columns`, whose columns stand `step` apart. */
   void (*solve_block)(const DiagonalBlock& block, uint32_t rows, double* x, ptrdiff_t step);
   /* Adds the rows k and below of an update's column, `from` its row 0, to a column of the front */
@@ -2161,6 +2322,9 @@ class Cholesky {
   /* is `not_positive_definite`, place.vertex its column. */
   Status factor(const Csc& lower);
 
+  /* Gives back what only another factor() would need; the next one begins with analyse(). */
+  void end_factoring();
+
   /* x := A^-1 x, an n x columns block stored row by row. */
   Status solve(Span<double> x, uint32_t columns);
 
@@ -2180,6 +2344,7 @@ class Cholesky {
   static void factor_task(uint32_t index, void* batch);
   Status factor_step(const Step& step, const double* source);
   Status refuse_column(uint32_t s, uint32_t column) const;
+  size_t lane_step() const { return round_up_rows(tallest_) + 4; }
   void solve_forward(uint32_t s, uint32_t lanes);
   void solve_backward(uint32_t s, uint32_t lanes);
   Status count_solve(uint32_t s, uint32_t lanes, size_t* work);
@@ -2271,8 +2436,9 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
 /* definite when every component holds a vertex and the free rows stay in. One factor serves any */
 /* number of fields, several in one sweep; new weights keep the ordering and the symbolic analysis. */
 /* Where the factor of K would not fit under the memory cap, conjugate gradients take its place, */
-/* with the inverse of L_ff W^-1 L_ff as preconditioner (order 3: one factor more): the factor of */
-/* L_ff is a quarter of K's. Order 1 has no way out but the status. Cost: see sparse/cholesky.h. */
+/* with the inverse of L_ff W^-1 L_ff as preconditioner (laplacian_pairs.h; order 3: one factor */
+/* more): the factor of L_ff is a quarter of K's. Order 1 has no way out but the status. Cost: see */
+/* sparse/cholesky.h. */
 /* Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004. */
 
 namespace wireskin::smooth {
@@ -2310,8 +2476,8 @@ class System {
   Status prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
                  const Places& places = {});
   /* Assembles and factors with these row weights, and a penalty for each vertex (empty: none); may */
-  /* be called again. */
-  Status factor(Span<const double> weight, Span<const double> penalty);
+  /* be called again unless this is the `last` time, which saves memory. */
+  Status factor(Span<const double> weight, Span<const double> penalty, bool last = false);
   /* `residual`: the greatest relative residual of all columns, after one step of refinement where */
   /* needed. */
   Status solve(Span<const Field3> fields, double* residual);
@@ -2334,7 +2500,7 @@ class System {
   const sparse::Csc* laplacian_ = nullptr;
   Order order_ = Order::two;
   bool analysed_ = false;
-  bool iterative_ = false;  /* factor_ is that of -L_ff */
+  bool iterative_ = false;  /* factor_ is that of S - L_ff, S from the penalties */
   uint32_t unknowns_ = 0;
   Array<Vec3> place_;  /* of each unknown until the order is found, or empty */
   Array<uint32_t> patch_;
@@ -2391,8 +2557,10 @@ struct Domain {
   /* Held vertices on open borders whose normal is not known (any value): that of the surface as far */
   /* as it is found stands for it. Empty: none. */
   Span<const uint8_t> bare = {};
-  Places places = {};                           /* for the order of elimination */
-  Array<mesh::TriangleShape>* spent = nullptr;  /* given back once `shape`, its view, has been read */
+  Places places = {};  /* for the order of elimination */
+  /* Given back once `shape` and `places.position`, their views, have been read. */
+  Array<mesh::TriangleShape>* spent = nullptr;
+  Array<Vec3>* spent_places = nullptr;
 };
 
 /* Position and normal of every vertex: in, those of the held ones; out, all. */
@@ -2518,11 +2686,28 @@ Status surface_triangles(Context& context, const TriangleSet& mesh, const Settin
 }  /* namespace wireskin */
 /* ======== end src/surface.h ======== */
 
-/* ======== begin src/api/boundary.h ======== */
-/* What the entry points of the C API share: reading options and arrays, the scaling, blocks of */
-/* memory that hold a handle with all its arrays, and the way a call ends. Defined in api.cpp. */
+/* ======== begin src/api/report.h ======== */
+/* The report: from the statuses, counts and costs of a call to the caller's struct, whose size may */
+/* be that of an older version. Lengths leave in his units. */
 
-/* One block of the caller's memory holds the handle and, behind it, all arrays of the view. */
+namespace wireskin::api {
+
+/* The struct of the first release; a smaller size means that the caller forgot to initialise. */
+inline constexpr size_t k_report_size = offsetof(wsk_report, total_ms) + sizeof(double);
+
+void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report);
+void report_costs(Context& context, wsk_report* report);
+
+/* Writes the status into `report` and copies it out, as much of it as the caller's version has. */
+wsk_status finish(const Status& status, wsk_report* report, wsk_report* out);
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/report.h ======== */
+
+/* ======== begin src/api/view.h ======== */
+/* Results as the caller sees them: one block of his memory holds the handle and, behind it, all */
+/* arrays of its view, in his units. */
+
 struct wsk_surface {
   wireskin::Allocator allocator;
   size_t bytes;
@@ -2530,27 +2715,6 @@ struct wsk_surface {
 };
 
 namespace wireskin::api {
-
-/* Structs of the first release; a smaller size means that the caller forgot to initialise. */
-inline constexpr size_t k_options_size = offsetof(wsk_options, now_user) + sizeof(void*);
-inline constexpr size_t k_report_size = offsetof(wsk_report, total_ms) + sizeof(double);
-
-inline size_t least(size_t a, size_t b) {
-  return a < b ? a : b;
-}
-
-/* Rows of three doubles at any stride, aligned or not. */
-struct Rows {
-  const double* data;
-  size_t stride;
-
-  Vec3 operator[](size_t i) const {
-    double row[3];
-    const size_t step = stride == 0 ? sizeof row : stride;
-    std::memcpy(row, reinterpret_cast<const unsigned char*>(data) + i * step, sizeof row);
-    return {row[0], row[1], row[2]};
-  }
-};
 
 /* Places one array after the other in a block, all aligned for double. */
 class Layout {
@@ -2581,25 +2745,6 @@ void fill_view(const Handle* handle, View* view, size_t size) {
   view->size = size;
 }
 
-Status read_options(const wsk_options* given, wsk_options* options);
-Allocator allocator_of(const wsk_options& options);
-Callbacks callbacks_of(const wsk_options& options);
-
-void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report);
-void report_costs(Context& context, wsk_report* report);
-
-/* Copies the report out, as much of it as the caller's version has. */
-wsk_status finish(const Status& status, wsk_report* report, wsk_report* out);
-
-double greatest_component(const Vec3& a);
-
-/* One position and normal, checked; the normal comes out unit whatever its length was. */
-Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position);
-Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal);
-
-/* The power of two that brings the extent of the points to one half up to one. */
-Status find_scale(Span<const Vec3> points, int* exponent);
-
 inline const double* write_vectors(unsigned char* block, size_t offset, Span<const Vec3> values,
                                    const Scale& scale) {
   double* out = reinterpret_cast<double*>(block + offset);
@@ -2614,7 +2759,80 @@ inline const double* write_vectors(unsigned char* block, size_t offset, Span<con
 Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out);
 
 }  /* namespace wireskin::api */
+/* ======== end src/api/view.h ======== */
+
+/* ======== begin src/api/boundary.h ======== */
+/* How a call at the C boundary goes: the options are read, a context is made, the task runs in it, */
+/* and whatever happened is reported. Brings in what the tasks share: options, input, report, views. */
+
+namespace wireskin::api {
+
+/* Where a result goes: the caller's pointer, what is said if it is null, and how a result is freed. */
+template <typename Handle>
+struct Destination {
+  Handle** handle;
+  const char* missing;
+  void (*release)(Handle* handle);
+};
+
+/* `earlier`: what reading other options said. A result that failed at the very end, cancelled while */
+/* it was copied out, is freed. */
+template <typename Handle, typename Task>
+wsk_status run_call(const Status& earlier, const wsk_options* given,
+                    const Destination<Handle>& destination, wsk_report* out, const Task& task) {
+  wsk_report report;
+  wsk_report_init(&report, sizeof report);
+  if (out != nullptr && out->size < k_report_size) return WSK_ERROR_BAD_ARGUMENT;
+  if (destination.handle == nullptr) {
+    return finish(fail(Code::bad_argument, destination.missing), &report, out);
+  }
+  wsk_options options;
+  Status status = earlier;
+  if (status.ok()) status = read_options(given, &options);
+  if (!status.ok()) return finish(status, &report, out);
+  Context context(allocator_of(options), options.memory_cap, callbacks_of(options));
+  Handle* made = nullptr;
+  status = task(context, options, &report, &made);
+  if (!status.ok() && made != nullptr) destination.release(made);
+  report_costs(context, &report);
+  if (status.ok()) *destination.handle = made;
+  return finish(status, &report, out);
+}
+
+}  /* namespace wireskin::api */
 /* ======== end src/api/boundary.h ======== */
+
+/* ======== begin src/api/curves.h ======== */
+/* The caller's curves for wsk_build: checked, and copied into arrays of our own, one curve after */
+/* the other, still in his units. */
+
+namespace wireskin::api {
+
+struct CurveStorage {
+  Array<uint32_t> start;
+  Array<Vec3> position, normal;
+  Array<uint32_t> number;
+  Array<uint8_t> closed, boundary;
+  Array<double> soft;
+  Array<uint8_t> sharp;  /* empty where no curve is */
+  Array<Vec3> right;
+
+  explicit CurveStorage(Context& context)
+      : start(context),
+        position(context),
+        normal(context),
+        number(context),
+        closed(context),
+        boundary(context),
+        soft(context),
+        sharp(context),
+        right(context) {}
+};
+
+Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage);
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/curves.h ======== */
 
 /* ======== begin src/flow/complex.h ======== */
 /* The Delaunay complex of a point set with its radius function: tetrahedra, triangles and edges */
@@ -2741,41 +2959,6 @@ Status find_critical_points(const Complex& complex, CriticalPoints* critical);
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/critical.h ======== */
 
-/* ======== begin src/flow/persistence.h ======== */
-/* The voids that growing balls round the points enclose: which triangle closes a void, which */
-/* tetrahedron is the last of it to be filled, and how much the balls grow in between. */
-/* */
-/* In: a complex with its values. Out: every triangle is a creator (it closes a void, and is paired */
-/* with the tetrahedron that fills it) or a destroyer; voids by decreasing ratio. Valid for any */
-/* values, as they are only compared; the outside is the void that is never filled. */
-/* Cost: sorting the triangles, and almost linear union-find over the tetrahedra. */
-/* Source: H. Edelsbrunner, D. Letscher, A. Zomorodian, "Topological Persistence and */
-/* Simplification", 2002; J. B. Kruskal, "On the Shortest Spanning Subtree of a Graph", 1956. */
-
-namespace wireskin::flow {
-
-struct Void {
-  uint32_t creator;  /* triangle */
-  uint32_t maximum;  /* tetrahedron */
-  double creation;   /* radius at which the creator closes it: sqrt f */
-  double filling;    /* radius at which the maximum fills it: sqrt F, capped */
-  double ratio;  /* filling / creation with both capped at sqrt(3/8) diagonal, the largest that a */
-                 /* true maximum can have (H. Jung, 1901) */
-};
-
-struct Persistence {
-  explicit Persistence(Context& context) : creator(context), void_of(context), voids(context) {}
-
-  Array<uint8_t> creator;   /* for each triangle 1, or 0 for a destroyer */
-  Array<uint32_t> void_of;  /* for each triangle its place in voids, or k_none */
-  Array<Void> voids;        /* ratio > 1 + 1e-6, by decreasing ratio, then creator */
-};
-
-Status find_persistence(Context& context, const Complex& complex, Persistence* persistence);
-
-}  /* namespace wireskin::flow */
-/* ======== end src/flow/persistence.h ======== */
-
 /* ======== begin src/flow/arcs.h ======== */
 /* From the caller's curves to arcs: stretches of polyline without a junction or corner inside. */
 /* */
@@ -2801,6 +2984,7 @@ struct Polylines {
 
 struct Arcs {
   double diagonal = 0.0;          /* of the bounding box */
+  uint32_t given = 0;             /* vertices that are samples; bend_arcs adds others behind them */
   Array<Vec3> vertex;             /* the points */
   Array<uint32_t> sample_vertex;  /* of each of the caller's samples */
   Array<uint32_t> start;        /* arc a is path[start[a] .. start[a + 1]), closed: first again last */
@@ -2833,22 +3017,49 @@ Status find_arcs(Context& context, const Polylines& curves, Arcs* arcs);
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/arcs.h ======== */
 
+/* ======== begin src/surface/flow_noise.h ======== */
+/* Noise taken out of curves before a flow samples them. */
+/* */
+/* In: polylines as flow::build_flow takes them, their normals or none, and what is known of the */
+/* noise. Out, in place: positions and normals by the smoothing splines of network/smoothing.h over */
+/* the chains that the curves form (flow/chains.h), so that fragments are smoothed as what they are */
+/* fragments of; samples that are one point stay one, junctions move with their curves, corners, */
+/* ends and isolated points keep what they are. Where noise is to be found and no sample would move */
+/* by more than k_no_noise of the diagonal, which is the rounding of files, nothing moves at all. */
+/* Cost: that of the splines. Sources: see there. */
+
+namespace wireskin {
+
+inline constexpr double k_no_noise = 1e-5;
+inline constexpr double k_no_noise_of_normals = 1e-4;
+
+/* `polylines.position` views the same samples as `position`; `normal` is empty or has one for each. */
+Status smooth_polylines(Context& context, const flow::Polylines& polylines,
+                        const network::SmoothingOptions& options, Span<Vec3> position,
+                        Span<Vec3> normal, network::SmoothingReport* report);
+
+}  /* namespace wireskin */
+/* ======== end src/surface/flow_noise.h ======== */
+
 /* ======== begin src/flow/sample.h ======== */
 /* Points on arcs, dense enough that nothing slips between them: the samples of which the flow */
 /* complex is made. */
 /* */
-/* In: arcs and the greatest step. Out: the samples, those of each arc in order, with the caller's */
-/* curve and the place on it. Invariants: every node and every isolated point is a sample bit for */
-/* bit; at a node all arcs begin with steps of the same length; steps are at most half the distance */
-/* to the nearest other arc (its directed Hausdorff distance) down to a floor; every segment is */
-/* Gabriel, that is, no sample lies in the ball of which it is the diameter, unless it is shorter */
-/* than k_least_segment, which is counted. Near-linear where arcs are not all near each other. */
-/* Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, */
-/* section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells round nodes). */
+/* In: arcs and the greatest step. Out: the samples, those of each arc in order, with the place on */
+/* it. Invariants: samples lie on the polylines; every node and every isolated point is a sample bit */
+/* for bit, and no given point is farther than k_given_distance steps from the segments; */
+/* at a node all arcs begin with steps of the same length; steps are at most half the distance to */
+/* the nearest other arc (its directed Hausdorff distance) down to a floor, but for those beside a */
+/* sample that moved to a given point; every segment is Gabriel, that is, no sample lies in the ball */
+/* of which it is the diameter, unless it is shorter than k_least_segment, which is */
+/* counted. Near-linear where arcs are not all near each other. Sources: B. Sadri, K. Singh, */
+/* "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.1; J. Ruppert, "A */
+/* Delaunay Refinement Algorithm", 1995 (shells round nodes). */
 
 namespace wireskin::flow {
 
-inline constexpr double k_least_segment = 1e-5;  /* of the diagonal */
+inline constexpr double k_least_segment = 1e-5;   /* of the diagonal */
+inline constexpr double k_given_distance = 0.05;  /* of the greatest step */
 
 struct Samples {
   Array<Vec3> position;
@@ -2882,6 +3093,9 @@ Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Sam
 /* Samples::at), or none; and for each other edge ab the sample m between, where a triangle a m b */
 /* has two segments for its other edges: a chord. Sheets that meet at a chord are taken to meet at */
 /* the curve. Segments that are no edges of the complex are counted. Linear. */
+/* Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, */
+/* section 4.1 (segments as edges); chords and Gabriel edges: U. Bauer, H. Edelsbrunner, "The Morse */
+/* Theory of Cech and Delaunay Complexes", 2017. */
 
 namespace wireskin::flow {
 
@@ -2940,6 +3154,9 @@ void begin_removal(Sheet* sheet);
 void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t triangle,
                      Sheet* sheet);
 void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
+/* Likewise, the curves protected; where one would lose its last triangle, takes the whole removal */
+/* back at once and returns false. */
+bool peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet);
 void undo_removal(const Complex& complex, Sheet* sheet);
 
 /* The triangles that can be reached from one without crossing a curve, a chord, or an edge whose */
@@ -2950,6 +3167,64 @@ Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/sheet.h ======== */
 
+/* ======== begin src/flow/flat_faces.h ======== */
+/* Faces of wireframes: where curves in one plane close a polygon or a ring, with nothing in it. */
+/* */
+/* In: the complex, the samples, the curves' edges, the walls of all rooms. Out: for each triangle */
+/* whether it lies in such a face, and whether the face is a polygon: at least half of its border is */
+/* straight, and has corners rather than bends. Found by flooding coplanar triangles of the walls */
+/* from the largest one on; a set counts if at each of its edges off the curves it lies on both */
+/* sides. O(triangles log triangles). */
+
+namespace wireskin::flow {
+
+enum class Flatness : uint8_t { none, plane, polygon };
+
+Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
+                       const CurveEdges& curves, const Sheet& sheet, Array<Flatness>* flatness);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/flat_faces.h ======== */
+
+/* ======== begin src/flow/persistence.h ======== */
+/* The voids that growing balls round the points enclose: which triangle closes a void, which */
+/* tetrahedron is the last of it to be filled, and how much the balls grow in between. */
+/* */
+/* In: a complex with its values. Out: every triangle is a creator (it closes a void, and is paired */
+/* with the tetrahedron that fills it) or a destroyer; voids by decreasing ratio. Valid for any */
+/* values, as they are only compared; the outside is the void that is never filled. */
+/* Cost: sorting the triangles, and almost linear union-find over the tetrahedra. */
+/* Source: H. Edelsbrunner, D. Letscher, A. Zomorodian, "Topological Persistence and */
+/* Simplification", 2002; J. B. Kruskal, "On the Shortest Spanning Subtree of a Graph", 1956. */
+
+namespace wireskin::flow {
+
+struct Void {
+  uint32_t creator;  /* triangle */
+  uint32_t maximum;  /* tetrahedron */
+  double creation;   /* radius at which the creator closes it: sqrt f */
+  double filling;    /* radius at which the maximum fills it: sqrt F, capped */
+  double ratio;  /* filling / creation with both capped at sqrt(3/8) diagonal, the largest that a */
+                 /* true maximum can have (H. Jung, 1901) */
+  bool loose;    /* the creator lies in a loose wall */
+};
+
+struct Persistence {
+  explicit Persistence(Context& context) : creator(context), void_of(context), voids(context) {}
+
+  Array<uint8_t> creator;   /* for each triangle 1, or 0 for a destroyer */
+  Array<uint32_t> void_of;  /* for each triangle its place in voids, or k_none */
+  Array<Void> voids;        /* ratio > 1 + 1e-6, by decreasing ratio, then creator */
+};
+
+/* Triangles marked `loose`, if any are, are passed before all others, so that what they part counts */
+/* as one void (loose_walls.h). */
+Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
+                        Span<const uint8_t> loose = {});
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/persistence.h ======== */
+
 /* ======== begin src/flow/topology.h ======== */
 /* The topological reconstruction: which voids there are, and the walls between them, bounded by */
 /* curves. */
@@ -2959,9 +3234,10 @@ Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet
 /* walls separate exactly the chosen voids and the outside from each other; no piece of curve that */
 /* had a triangle loses its last one. Method: destroyers and chosen creators, peeled from all edges */
 /* but the curves'; a void counts only if its wall ends on curves, which triangulations of nearly */
-/* round tubes feign; then triangles with the same void on both sides go, greatest radius first, as */
-/* far as they are not fins. O(triangles) for a void tried, near-linear else. Source: B. Sadri, K. */
-/* Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3 and figure 13. */
+/* round tubes feign; a flat polygon between a room and the outside counts whatever the room's */
+/* ratio; then triangles with the same void on both sides go, greatest radius first, as far as they */
+/* are not fins. O(triangles) for a void tried, near-linear else. Source: B. Sadri, K. Singh, */
+/* "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3 and figure 13. */
 
 namespace wireskin::flow {
 
@@ -2987,13 +3263,14 @@ struct Topology3 {
 /* outside is the last entry. Labels are least members. */
 Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* label);
 
+/* `flatness` is empty where flat faces are nothing special. */
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    const Persistence& persistence, const TopologyOptions& options,
-                    Array<uint32_t>* chosen);
+                    Span<const Flatness> flatness, const Persistence& persistence,
+                    const TopologyOptions& options, Array<uint32_t>* chosen);
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            const Persistence& persistence, const TopologyOptions& options,
-                            Topology3* topology);
+                            Span<const Flatness> flatness, const Persistence& persistence,
+                            const TopologyOptions& options, Topology3* topology);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/topology.h ======== */
@@ -3007,7 +3284,8 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
 /* the path along the curve; a class of triangles whose border cancels out by that is an ear and */
 /* belongs to every patch at its chord. Where sheets merge short of a curve, the rest of the way (a */
 /* tail) belongs to each of them. So ears and tails occur in several patches. A patch whose border */
-/* still has an edge off the curves is open. Near-linear. */
+/* still has an edge off the curves is open. Near-linear. Source: B. Sadri, K. Singh, */
+/* "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014; chords and tails are our own. */
 
 namespace wireskin::flow {
 
@@ -3111,6 +3389,7 @@ struct FlowOptions {
   /* less. */
   double sampling = 0.0;
   double spacing = 0.0;
+  bool bend = false;  /* the samples are of smooth curves, not corners of polylines */
   ComplexOptions complex;
 };
 
@@ -3120,6 +3399,7 @@ struct Flow {
   Samples samples;
   Complex complex;
   CurveEdges curves;
+  Array<Flatness> flatness;  /* of each triangle of the complex */
   Persistence persistence;
   SampleTangents tangents;
 
@@ -3128,6 +3408,7 @@ struct Flow {
         samples(context),
         complex(context),
         curves(context),
+        flatness(context),
         persistence(context),
         tangents(context) {}
 };
@@ -3167,7 +3448,8 @@ Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptio
 /* embedded complex itself; triangles of it that cross all the same, because curves all but touch, */
 /* get the complex's own, jittered points. Without spacing all patches are left as they are. Every */
 /* triangle of the walls occurs once, ears and tails in their first patch. Near-linear in the */
-/* result. */
+/* result. Source of the remeshing to fair patches: B. Sadri, K. Singh, "Flow-Complex-Based Shape */
+/* Reconstruction from 3D Curves", 2014, section 5. */
 
 namespace wireskin::flow {
 
@@ -3198,14 +3480,30 @@ Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& re
 /* edges. Without normals, where more than two patches meet at a curve, where a border is no curve */
 /* and where smoothing would make triangles cross, the remeshed patches are the result; curvatures */
 /* are zero then where the mesh is no manifold. For smoothing, vertices between two samples of a */
-/* curve move off the segment to where the normals at its ends bend it (curved PN triangles). */
+/* curve move off the segment to where the normals at its ends bend it. Cost: that of remeshing */
+/* (flow/remesh.h) and of one smoothing. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape */
+/* Reconstruction from 3D Curves", 2014; A. Vlachos et al., "Curved PN Triangles", 2001. */
 
 namespace wireskin {
 
 struct FlowSettings {
   double spacing = 0.0;  /* of the result; 0: patches stay as they are */
   smooth::Method method = smooth::Method::fair;
-  Span<const Vec3> normal;  /* of the caller's samples, unit; empty: none */
+  Span<const Vec3> normal;   /* of the caller's samples, unit; empty: none */
+  Span<const Vec3> given;    /* the caller's samples before noise was taken out */
+  uint32_t bare_curves = 0;  /* without normals where others have some; k_none: all of them */
+};
+
+/* Numbered like WSK_FLOW_NORMALS_... */
+enum class NormalsUse {
+  none,
+  used,
+  incomplete,
+  not_manifold,
+  free_border,
+  contradicting,
+  crossing,
+  too_thin
 };
 
 struct FlowOutcome {
@@ -3213,7 +3511,8 @@ struct FlowOutcome {
   uint32_t held_back = 0;
   uint32_t crossings = 0;
   bool manifold = false;
-  bool smoothed = false;
+  NormalsUse normals = NormalsUse::none;
+  uint32_t normals_places = 0;  /* that kept them from being used */
 
   explicit FlowOutcome(Context& context) : vertex_of(context) {}
 };
@@ -3224,111 +3523,6 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
 
 }  /* namespace wireskin */
 /* ======== end src/surface/from_flow.h ======== */
-
-/* ======== begin src/base/sort.h ======== */
-/* Sorting in place, without allocation or recursion: quicksort with the median of three, insertion */
-/* sort on short runs, heapsort where the pivots turn out badly (Musser, "Introspective Sorting and */
-/* Selection Algorithms", 1997). */
-/* */
-/* `less` must be a total order (no two different elements may compare equal): then the result is */
-/* the same whatever the algorithm, which is why the library does not use std::sort. O(n log n). */
-
-namespace wireskin {
-
-template <typename T>
-void swap_values(T& a, T& b) {
-  const T kept = a;
-  a = b;
-  b = kept;
-}
-
-template <typename T, typename Less>
-void insertion_sort(T* first, T* last, const Less& less) {
-  if (first == last) return;
-  for (T* i = first + 1; i != last; ++i) {
-    const T moving = *i;
-    T* hole = i;
-    for (; hole != first && less(moving, hole[-1]); --hole) *hole = hole[-1];
-    *hole = moving;
-  }
-}
-
-template <typename T, typename Less>
-void sift_down(T* heap, size_t i, size_t size, const Less& less) {
-  const T moving = heap[i];
-  for (size_t child = 2 * i + 1; child < size; child = 2 * i + 1) {
-    if (child + 1 < size && less(heap[child], heap[child + 1])) ++child;
-    if (!less(moving, heap[child])) break;
-    heap[i] = heap[child];
-    i = child;
-  }
-  heap[i] = moving;
-}
-
-template <typename T, typename Less>
-void heap_sort(T* first, T* last, const Less& less) {
-  const size_t size = static_cast<size_t>(last - first);
-  for (size_t i = size / 2; i-- > 0;) sift_down(first, i, size, less);
-  for (size_t end = size; end-- > 1;) {
-    swap_values(first[0], first[end]);
-    sift_down(first, 0, end, less);
-  }
-}
-
-/* Splits [first, last) around the median of three; both parts are shorter than the whole. */
-template <typename T, typename Less>
-T* partition(T* first, T* last, const Less& less) {
-  T* middle = first + (last - first) / 2;
-  if (less(*middle, *first)) swap_values(*middle, *first);
-  if (less(last[-1], *first)) swap_values(last[-1], *first);
-  if (less(last[-1], *middle)) swap_values(last[-1], *middle);
-  const T pivot = *middle;
-  T* left = first;
-  T* right = last - 1;
-  while (true) {
-    while (less(*left, pivot)) ++left;
-    while (less(pivot, *right)) --right;
-    if (left >= right) return left == first ? left + 1 : left;
-    swap_values(*left++, *right--);
-  }
-}
-
-template <typename T, typename Less>
-void sort(Span<T> values, const Less& less) {
-  constexpr ptrdiff_t k_short = 16;
-  struct Run {
-    T* first;
-    T* last;
-    int budget;
-  };
-  Run stack[64];  /* the longer part waits, so the depth is at most log2 of the size */
-  int depth = 0;
-  int budget = 2;
-  for (size_t n = values.size(); n > 1; n >>= 1) budget += 2;
-  stack[depth++] = {values.begin(), values.end(), budget};
-  while (depth > 0) {
-    Run run = stack[--depth];
-    while (run.last - run.first > k_short && run.budget > 0) {
-      T* middle = partition(run.first, run.last, less);
-      --run.budget;
-      if (middle - run.first < run.last - middle) {
-        stack[depth++] = {middle, run.last, run.budget};
-        run.last = middle;
-      } else {
-        stack[depth++] = {run.first, middle, run.budget};
-        run.first = middle;
-      }
-    }
-    if (run.last - run.first > k_short) {
-      heap_sort(run.first, run.last, less);
-    } else {
-      insertion_sort(run.first, run.last, less);
-    }
-  }
-}
-
-}  /* namespace wireskin */
-/* ======== end src/base/sort.h ======== */
 
 /* ======== begin src/network/wires.h ======== */
 /* Raw curves on their way to a network: the one structure that welding, chaining, snapping and the */
@@ -3441,6 +3635,10 @@ Status list_members(const Wires& wires, PointMembers* members);
 /* `component` of each curve is numbered from zero in the order of the curves. */
 Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* counts);
 
+/* What curves that are to meet may miss each other by: the median edge, which is about what strokes */
+/* do, but at most 1/100 of the diagonal of the bounding box. */
+Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance);
+
 }  /* namespace wireskin::network */
 /* ======== end src/network/wires.h ======== */
 
@@ -3531,8 +3729,9 @@ Status fill_along(Wires* wires, FillCounts* counts);
 /* From the points that curves share. */
 Status fill_from_nodes(Wires* wires, FillCounts* counts);
 
-/* Gives the samples of each point in `joined` (of each point: whether it is new) their mean normal. */
-/* Lists, at every point, the normals more than 45 degrees from the mean. */
+/* Gives the samples of each point in `joined` (of each point: whether it is new) their mean normal, */
+/* unless one of them is more than 60 degrees from it: the mean of normals that contradict each */
+/* other would hide that. Lists, at every point, the normals more than 45 degrees from the mean. */
 Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
                          Array<Contradiction>* contradictions);
 
@@ -3583,16 +3782,15 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
 /* other. */
 /* */
 /* In: welded, chained curves and a tolerance. Local minima of the distance between curves are taken */
-/* nearest first. One is left alone where the network connects its places already within four */
-/* tolerances (a loose end: four times the distance, two loose ends: twice); where it lies near an */
-/* end or a node of a curve that is no farther than the tolerance from the other place, that end or */
-/* node takes part instead. Two insides are joined only if the curves were in different connected */
-/* components to begin with, or cross: at a quarter of the tolerance, or at a hundredth in a network */
-/* that is complete (one component, no dangling ends). A place between samples becomes a sample. */
-/* Where a place was connected already it stays and the others come to it, else an end comes to the */
-/* inside of a curve, else both meet in the middle. Out: the curves, bent (network/bend.h), with the */
-/* points united; the list of joints. Cost: that of finding the approaches, and of a search over the */
-/* samples within four tolerances for each. */
+/* nearest first and left alone where the network connects their places already within four */
+/* tolerances (a loose end: four times the distance, two: twice); an end or a node no farther than */
+/* the tolerance takes part instead of a place near it. Insides are joined only where the curves */
+/* were in different components, or cross: at a quarter of the tolerance, or at a hundredth in a */
+/* network that is complete. Where three quarters of the gaps are next to nothing (curves drawn on a */
+/* surface), every crossing gets its point, ends are settled first, and curves side by side are */
+/* joined only where nothing else joins their components. Out: the curves, bent (network/bend.h), */
+/* points that were joined staying and ends coming to insides; the list of joints. Cost: that of the */
+/* approaches and of a search over the samples within four tolerances for each. */
 
 namespace wireskin::network {
 
@@ -3604,10 +3802,6 @@ struct Snap {
   double distance = 0.0;
   SnapKind kind = SnapKind::end_end;
 };
-
-/* The median edge, which is about what */
-/* strokes miss each other by, but at most 1/100 of the diagonal of the bounding box. */
-Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance);
 
 struct SnapResult {
   Array<Snap> snaps;
@@ -3655,6 +3849,162 @@ Status connect_wires(Context& context, const ConnectOptions& options, double dia
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/connect.h ======== */
+
+/* ======== begin src/api/network_view.h ======== */
+/* Networks as the caller sees them: one block of his memory with the curves as wsk_build takes */
+/* them, where each sample came from, and what was joined. Joints without a number of his get fresh */
+/* ones. */
+
+struct wsk_network {
+  wireskin::Allocator allocator;
+  size_t bytes;
+  wsk_network_view view;
+  uint32_t least_fresh, most_fresh;  /* node numbers that are not the caller's */
+};
+
+namespace wireskin::api {
+
+/* `given`: the caller's curves, to which normals that did not change go back; null where there are */
+/* none to compare with. */
+Status make_network(Context& context, const network::Wires& wires,
+                    const network::ConnectResult& result, int exponent, const wsk_curve* given,
+                    wsk_network** out);
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/network_view.h ======== */
+
+/* ======== begin src/api/raw_curves.h ======== */
+/* The caller's arrays for wsk_connect and wsk_integrate: checked, and copied into the structure */
+/* that src/network works on, still in his units. */
+
+namespace wireskin::api {
+
+Status read_raw_curves(const wsk_curve* curves, size_t count, network::Wires* wires);
+
+/* Curves without positions: arc length and unit tangent of each sample. */
+struct SensorCurves {
+  network::Wires wires;
+  Array<double> arc;
+  Array<Vec3> tangent;
+  Array<uint8_t> to_next;  /* of each curve: tangents point to the next sample */
+
+  explicit SensorCurves(Context& context)
+      : wires(context), arc(context), tangent(context), to_next(context) {}
+};
+
+Status read_sensor_curves(const wsk_sensor_curve* curves, size_t count, SensorCurves* sensor);
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/raw_curves.h ======== */
+
+/* ======== begin src/base/sort.h ======== */
+/* Sorting in place, without allocation or recursion: quicksort with the median of three, insertion */
+/* sort on short runs, heapsort where the pivots turn out badly (Musser, "Introspective Sorting and */
+/* Selection Algorithms", 1997). */
+/* */
+/* `less` must be a total order (no two different elements may compare equal): then the result is */
+/* the same whatever the algorithm, which is why the library does not use std::sort. O(n log n). */
+
+namespace wireskin {
+
+template <typename T>
+void swap_values(T& a, T& b) {
+  const T kept = a;
+  a = b;
+  b = kept;
+}
+
+template <typename T, typename Less>
+void insertion_sort(T* first, T* last, const Less& less) {
+  if (first == last) return;
+  for (T* i = first + 1; i != last; ++i) {
+    const T moving = *i;
+    T* hole = i;
+    for (; hole != first && less(moving, hole[-1]); --hole) *hole = hole[-1];
+    *hole = moving;
+  }
+}
+
+template <typename T, typename Less>
+void sift_down(T* heap, size_t i, size_t size, const Less& less) {
+  const T moving = heap[i];
+  for (size_t child = 2 * i + 1; child < size; child = 2 * i + 1) {
+    if (child + 1 < size && less(heap[child], heap[child + 1])) ++child;
+    if (!less(moving, heap[child])) break;
+    heap[i] = heap[child];
+    i = child;
+  }
+  heap[i] = moving;
+}
+
+template <typename T, typename Less>
+void heap_sort(T* first, T* last, const Less& less) {
+  const size_t size = static_cast<size_t>(last - first);
+  for (size_t i = size / 2; i-- > 0;) sift_down(first, i, size, less);
+  for (size_t end = size; end-- > 1;) {
+    swap_values(first[0], first[end]);
+    sift_down(first, 0, end, less);
+  }
+}
+
+/* Splits [first, last) around the median of three; both parts are shorter than the whole. */
+template <typename T, typename Less>
+T* partition(T* first, T* last, const Less& less) {
+  T* middle = first + (last - first) / 2;
+  if (less(*middle, *first)) swap_values(*middle, *first);
+  if (less(last[-1], *first)) swap_values(last[-1], *first);
+  if (less(last[-1], *middle)) swap_values(last[-1], *middle);
+  const T pivot = *middle;
+  T* left = first;
+  T* right = last - 1;
+  while (true) {
+    while (less(*left, pivot)) ++left;
+    while (less(pivot, *right)) --right;
+    if (left >= right) return left == first ? left + 1 : left;
+    swap_values(*left++, *right--);
+  }
+}
+
+template <typename T, typename Less>
+void sort(Span<T> values, const Less& less) {
+  constexpr ptrdiff_t k_short = 16;
+  if (values.end() - values.begin() <= k_short) {
+    insertion_sort(values.begin(), values.end(), less);
+    return;
+  }
+  struct Run {
+    T* first;
+    T* last;
+    int budget;
+  };
+  Run stack[64];  /* the longer part waits, so the depth is at most log2 of the size */
+  int depth = 0;
+  int budget = 2;
+  for (size_t n = values.size(); n > 1; n >>= 1) budget += 2;
+  stack[depth++] = {values.begin(), values.end(), budget};
+  while (depth > 0) {
+    Run run = stack[--depth];
+    while (run.last - run.first > k_short && run.budget > 0) {
+      T* middle = partition(run.first, run.last, less);
+      --run.budget;
+      if (middle - run.first < run.last - middle) {
+        stack[depth++] = {middle, run.last, run.budget};
+        run.last = middle;
+      } else {
+        stack[depth++] = {run.first, middle, run.budget};
+        run.first = middle;
+      }
+    }
+    if (run.last - run.first > k_short) {
+      heap_sort(run.first, run.last, less);
+    } else {
+      insertion_sort(run.first, run.last, less);
+    }
+  }
+}
+
+}  /* namespace wireskin */
+/* ======== end src/base/sort.h ======== */
 
 /* ======== begin src/network/integrate.h ======== */
 /* Positions from arc lengths and tangents: what a sensor that knows its direction, but not its */
@@ -3843,6 +4193,34 @@ Vec3 tangent_at_knot(const Curve& curve, uint32_t knot);
 }  /* namespace wireskin::curves */
 /* ======== end src/curves/curve.h ======== */
 
+/* ======== begin src/curves/opposed.h ======== */
+/* Whether two normals of a surface lie on different sides of it, as far as a chord of it tells. */
+/* */
+/* In: unit normals (zero: not known) at two places, and the direction of the chord between them. */
+/* On a surface the chord is nearly tangent, and over it normals turn in its plane, by whatever the */
+/* curve bends, and twist about it. So only their parts across the chord are compared, which bending */
+/* leaves alone: opposed are parts more than 120 degrees apart, farther than a surface twists from */
+/* one sample to the next, and farther than two normals that are each 30 degrees wrong. Normals */
+/* nearly along the chord tell nothing, nor do those nearly along a curve (lies_across). O(1). */
+
+namespace wireskin::curves {
+
+/* Whether the normal is at least 30 degrees off the direction. */
+inline bool lies_across(const Vec3& normal, const Vec3& direction) {
+  const Vec3 part = reject(normal, unit(direction));
+  return dot(part, part) > 0.25;
+}
+
+inline bool opposed(const Vec3& a, const Vec3& b, const Vec3& chord) {
+  constexpr double k_least_cosine = -0.5;
+  if (!lies_across(a, chord) || !lies_across(b, chord)) return false;
+  const Vec3 along = unit(chord), p = reject(a, along), q = reject(b, along);
+  return dot(p, q) < k_least_cosine * (length(p) * length(q));
+}
+
+}  /* namespace wireskin::curves */
+/* ======== end src/curves/opposed.h ======== */
+
 /* ======== begin src/curves/distance.h ======== */
 /* How far samples of a curve lie from a polyline that follows the same curve. */
 /* */
@@ -3895,17 +4273,21 @@ inline bool has_normals(const Curve& curve) {
 /* ======== end src/curves/sides.h ======== */
 
 /* ======== begin src/flow/point_grid.h ======== */
-/* A uniform grid over points in space, for finding those near a place. */
+/* A uniform grid over points in space, for finding those near a place, however unevenly they lie. */
 /* */
-/* In: points (finite, extent about one). Out: for a box, the indices of all points in the cells */
-/* that it touches, a superset of those inside. About as many cells as points, so that points on */
-/* curves and surfaces come a few to a cell. O(points) to build. */
+/* In: points (finite, extent about one). Out: for a ball, the indices of all points inside, and of */
+/* some others. Up to eight cells to a point, so that most cells have few; in one that is crowded, */
+/* because the points are dense there or fill only a line of the box, they are a balanced tree: each */
+/* range's median, along the axis in which the range is widest, stands in its middle, those below */
+/* before and those above after it. O(points log points) to build, O(points) where they lie evenly. */
+/* Source of the trees: J. L. Bentley, "Multidimensional Binary Search Trees Used for Associative */
+/* Searching", 1975. */
 
 namespace wireskin::flow {
 
 class PointGrid {
  public:
-  explicit PointGrid(Context& context) : start_(context), item_(context) {}
+  explicit PointGrid(Context& context) : start_(context), item_(context), axis_(context) {}
 
   Status build(Span<const Vec3> points);
 
@@ -3918,10 +4300,8 @@ class PointGrid {
     for (uint32_t z = low.z; z <= high.z; ++z) {
       for (uint32_t y = low.y; y <= high.y; ++y) {
         const uint32_t row = (z * size_.y + y) * size_.x;
-        /* The cells of a row lie one behind the other, and so do their points. */
-        const uint32_t last = start_[row + high.x + 1];
-        for (uint32_t i = start_[row + low.x]; i < last; ++i) {
-          if (visit(item_[i])) return true;
+        for (uint32_t c = row + low.x; c <= row + high.x; ++c) {
+          if (any_in_cell({start_[c], start_[c + 1]}, center, radius, visit)) return true;
         }
       }
     }
@@ -3929,10 +4309,47 @@ class PointGrid {
   }
 
  private:
+  static constexpr uint32_t k_crowd = 32;
+  static constexpr uint32_t k_most_depth = 40;  /* ranges halve, and there are less than 2^32 points */
+
   struct Cell {
     uint32_t x = 1, y = 1, z = 1;
   };
+  struct Range {
+    uint32_t first, last;
+    uint32_t size() const { return last - first; }
+    uint32_t middle() const { return first + size() / 2; }
+  };
+  struct Item {
+    Vec3 at;
+    uint32_t index = 0;
+  };
 
+  template <typename Visit>
+  bool any_in_cell(Range range, const Vec3& center, double radius, const Visit& visit) const {
+    Range stack[k_most_depth];
+    uint32_t depth = 0;
+    while (true) {
+      while (range.size() > k_crowd) {
+        const uint32_t middle = range.middle();
+        const double above = along(center - item_[middle].at, axis_[middle]);
+        if (visit(item_[middle].index)) return true;
+        /* Rounding is monotonic, so that nothing inside of the ball is on a side left out. */
+        const Range before = {range.first, middle}, after = {middle + 1, range.last};
+        if (above <= radius && above >= -radius) stack[depth++] = after;
+        range = above <= radius ? before : after;
+      }
+      for (uint32_t i = range.first; i < range.last; ++i) {
+        if (visit(item_[i].index)) return true;
+      }
+      if (depth == 0) return false;
+      range = stack[--depth];
+    }
+  }
+
+  static double along(const Vec3& p, uint32_t axis) {
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  }
   static uint32_t clamp(double at, uint32_t size) {
     if (!(at > 0.0)) return 0;
     return at < size ? static_cast<uint32_t>(at) : size - 1;
@@ -3946,11 +4363,16 @@ class PointGrid {
     return (c.z * size_.y + c.y) * size_.x + c.x;
   }
   void choose_cells(size_t points, const Vec3& extent);
+  uint32_t widest_axis(const Range& range) const;
+  void put_median_in_the_middle(const Range& range, uint32_t axis);
+  void make_tree(const Range& whole);
 
   Vec3 low_;
   double per_cell_ = 0.0;
   Cell size_;
-  Array<uint32_t> start_, item_;
+  Array<uint32_t> start_;
+  Array<Item> item_;
+  Array<uint8_t> axis_;  /* of the range whose middle this is */
 };
 
 }  /* namespace wireskin::flow */
@@ -3971,6 +4393,65 @@ inline double larger(double a, double b) {
 
 }  /* namespace wireskin */
 /* ======== end src/num/minmax.h ======== */
+
+/* ======== begin src/flow/bend_arcs.h ======== */
+/* Arcs given by few samples become the smooth curves through them, so that sheets do not merge at */
+/* the facets of their polylines, short of the curves, and then are no manifold to be smoothed. */
+/* */
+/* In: arcs and the step at which they will be sampled. Out: the same arcs with more vertices on */
+/* their paths, where samples are farther apart than a quarter of the step: on cubics through the */
+/* samples, whose tangents are those of the parabolas through three neighbours along the chains that */
+/* arcs form. Corners (of more than 35 degrees) stay corners, straight stretches stay straight, bit */
+/* for bit, and beside a short segment a long one bends only as far as the short one reaches. Given */
+/* vertices keep their places and numbers, new ones follow. O(vertices). Source: C. de Boor, "A */
+/* Practical Guide to Splines", 1978, chapter IV (Bessel's cubics). */
+
+namespace wireskin::flow {
+
+Status bend_arcs(Context& context, double step, Arcs* arcs);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/bend_arcs.h ======== */
+
+/* ======== begin src/flow/chains.h ======== */
+/* Arcs joined again to the curves that a hand drew, for whoever looks at curves as a whole: through */
+/* points where two arcs end, and through junctions along the straightest way on of the same curve. */
+/* */
+/* In: arcs. Out: chains as paths over their vertices, every arc in one of them; and the places */
+/* where a chain has a corner, which no smoothing may round. A corner turns by more than 35 degrees, */
+/* and by more than noise explains: by 4.7 standard deviations, of the noise stated or of that which */
+/* the quietest quarter of the samples shows, seen from its neighbours or from three samples away. A */
+/* chain of which three quarters of the samples turn so sharply is a polygon, all corners, unless */
+/* the noise is stated or the chain leaves its plane all the time. O(samples log samples). Source: */
+/* B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.1 */
+/* (arcs end at corners); the rule is our own. */
+
+namespace wireskin::flow {
+
+struct Chains {
+  Array<uint32_t> start;   /* chain c has the places start[c] .. start[c + 1) */
+  Array<uint32_t> vertex;  /* of Arcs, of each place; a closed chain does not repeat its first */
+  Array<uint8_t> corner;   /* of each place */
+  Array<uint8_t> closed;   /* of each chain */
+  /* Where the path of each arc begins among the places, or ends if the chain runs against it. */
+  Array<uint32_t> arc_place;
+  Array<uint8_t> arc_backward;
+
+  explicit Chains(Context& context)
+      : start(context),
+        vertex(context),
+        corner(context),
+        closed(context),
+        arc_place(context),
+        arc_backward(context) {}
+  uint32_t size() const { return start.empty() ? 0 : static_cast<uint32_t>(start.size() - 1); }
+};
+
+/* `noise`: the standard deviation of a coordinate; 0: not known. */
+Status find_chains(Context& context, const Arcs& arcs, double noise, Chains* chains);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/chains.h ======== */
 
 /* ======== begin src/flow/delaunay.h ======== */
 /* The Delaunay triangulation of points in space: tetrahedra whose circumscribed balls hold no point */
@@ -4037,7 +4518,9 @@ bool inside_triangle_ball(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
 /* In: points and the amount as a part of the diagonal of their bounding box. Out: points moved by */
 /* at most that much along each axis; the same place always moves the same way, whatever its number. */
 /* Rotated, tied radii gave a wrong topology for half of the test networks without it; any amount */
-/* between 1e-9 and 1e-5 of the diagonal gave the right one. */
+/* between 1e-9 and 1e-5 of the diagonal gave the right one. Linear. Source of the need for points */
+/* in general position: U. Bauer, H. Edelsbrunner, "The Morse Theory of Cech and Delaunay */
+/* Complexes", 2017. */
 
 namespace wireskin::flow {
 
@@ -4277,6 +4760,27 @@ Status radix_sort(Context& context, Array<BitsKey>* keys);
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/radix_sort.h ======== */
 
+/* ======== begin src/flow/loose_walls.h ======== */
+/* Walls that no curve holds: they cross a room in mid-air, where growing balls happen to meet, and */
+/* end on other walls. A person sees the room go on, however narrow it is there. */
+/* */
+/* In: the complex, the samples, the curves' edges. Out: the flat faces; the persistence of the */
+/* complex with the loose walls passed before all others (persistence.h), which joins the rooms that */
+/* they part; for each triangle whether it lies in one. All rooms are cut out, and their walls */
+/* looked at: one that ends in the middle of flat faces along a quarter of its border is loose, and */
+/* one that ends on walls of whatever shape along nearly all of it; where three or more meet off the */
+/* curves, the two that continue each other most evenly do not end. What is passed first changes */
+/* what closes the other rooms, so this repeats, as long as it finds any. Near-linear a round. */
+
+namespace wireskin::flow {
+
+Status find_persistence_of_faces(Context& context, const Complex& complex, const Samples& samples,
+                                 const CurveEdges& curves, Array<Flatness>* flatness,
+                                 Persistence* persistence, Array<uint8_t>* loose);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/loose_walls.h ======== */
+
 /* ======== begin src/num/expansion.h ======== */
 /* Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum, */
 /* difference, scaling and product, of a size fixed at compile time and wholly on the stack. compact */
@@ -4515,7 +5019,8 @@ inline TwoParts wide_product(const TwoParts& a, const TwoParts& b) {
 /* Turns the triangles of the walls so that neighbours agree: towards the outside where they bound */
 /* a void, as their neighbours across edges of two triangles elsewhere. */
 /* */
-/* Linear. A wall that is one-sided (a Moebius band) keeps a seam. */
+/* Linear. A wall that is one-sided (a Moebius band) keeps a seam. Source of the voids on the sides: */
+/* B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3. */
 
 namespace wireskin::flow {
 
@@ -4536,7 +5041,9 @@ Status orient_walls(Context& context, const Complex& complex, const Sheet& walls
 /* */
 /* In: the patch's triangles. Out: its loops, each beginning where a run does, the patch on their */
 /* left; its Euler characteristic; whether an edge of the border is off the curves. Where loops */
-/* touch at a vertex the walk turns round it through the patch, so they stay apart. Linear. */
+/* touch at a vertex the walk turns round it through the patch, so they stay apart. Linear. Source */
+/* of patches by their loops: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D */
+/* Curves", 2014, section 4.4. */
 
 namespace wireskin::flow {
 
@@ -4589,7 +5096,16 @@ Status find_loops(const Complex& complex, const CurveEdges& curves, const Sample
 
 namespace wireskin::mesh {
 
+/* What the mesh holds beside its loops: all vertices before `vertices`, and edges between them, two */
+/* vertices each, the lesser first, sorted. */
+struct HeldCurves {
+  uint32_t vertices = 0;
+  Span<const uint32_t> edge;
+};
+
 /* Fails with too_large where the spacing asks for more vertices than indices can count. */
+Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
+                    const HeldCurves& held, Array<Vec3>* position, Array<uint32_t>* triangle);
 Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
                     Array<Vec3>* position, Array<uint32_t>* triangle);
 
@@ -4601,6 +5117,74 @@ Status refine_patch(Context& context, double spacing, bool relax, Span<const uin
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/loop_refine.h ======== */
+
+/* ======== begin src/mesh/loop_mesh.h ======== */
+/* A triangle mesh of little area within closed loops in space: what a patch starts from where its */
+/* border has no plane to be projected to. */
+/* */
+/* In: the loops' positions (finite, scaled so that the extent is about one) and unit normals, the */
+/* patch on their left seen from the normals' tips; the wished spacing. Out: inner points and */
+/* triangles over the loops' vertices (0 .. n - 1) and the inner ones (from n). Invariants: a disc, */
+/* or with several loops a sphere with that many holes, whose border the loops are in their */
+/* direction; no vertex is added on it. *mesh is written on success only. First a triangulation of */
+/* the loops' vertices alone by dynamic programming, least in the sum of area * (1 + k (1 - cos)) */
+/* with the angle between a triangle and the mean of its normals, k 2 or for several loops 8; */
+/* several loops become one by bridges, the shortest along which their conormals lead. Then */
+/* mesh/loop_refine.h. At most k_most_kept vertices or so take part in the first, so its cost is */
+/* bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the */
+/* Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003. */
+
+namespace wireskin::mesh {
+
+struct LoopMesh {
+  Array<Vec3> inner;
+  Array<uint32_t> triangle;  /* three vertices each */
+
+  explicit LoopMesh(Context& context) : inner(context), triangle(context) {}
+};
+
+/* Loop i has the vertices start[i] .. start[i + 1). */
+struct Loops {
+  Span<const uint32_t> start;
+  Span<const Vec3> position, normal;  /* normals are zero where not known */
+
+  uint32_t count() const { return static_cast<uint32_t>(start.size() - 1); }
+  uint32_t next(uint32_t loop, uint32_t v) const {
+    return v + 1 == start[loop + 1] ? start[loop] : v + 1;
+  }
+  uint32_t previous(uint32_t loop, uint32_t v) const {
+    return (v == start[loop] ? start[loop + 1] : v) - 1;
+  }
+};
+
+/* Fail with patch_folded (no place) where neighbours coincide or the loops enclose no area. */
+Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh* mesh);
+Status mesh_loop(Context& context, Span<const Vec3> position, Span<const Vec3> normal,
+                 double spacing, LoopMesh* mesh);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/loop_mesh.h ======== */
+
+/* ======== begin src/mesh/band.h ======== */
+/* A first mesh of the band between two closed loops in space whose normals are known: rows of */
+/* points on curves that leave either loop along its conormals. */
+/* */
+/* In: two loops as for mesh/loop_mesh.h, the wished spacing. Out: inner points and triangles over */
+/* the loops' vertices and them, an annulus. The loops are matched by the closed walk round both */
+/* that is least in the squares of the distances on its way (dynamic programming over k_probes */
+/* places of each, from every start); matched places are joined by cubics whose end tangents are */
+/* those of a circular arc. Unlike surfaces of little area such a band does not shrink to a neck, */
+/* however far apart the loops are. O(k_probes^3 + points). Sources: E. Keppel, "Approximating */
+/* Complex Surfaces by Triangulation of Contour Lines", 1975; H. Fuchs, Z. Kedem, S. Uselton, */
+/* "Optimal Surface Reconstruction from Planar Contours", 1977. */
+
+namespace wireskin::mesh {
+
+/* Fails as mesh_loops() does; with too_large where the spacing asks for too many points. */
+Status mesh_band(Context& context, const Loops& loops, double spacing, LoopMesh* mesh);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/band.h ======== */
 
 /* ======== begin src/mesh/care.h ======== */
 /* Keeping a moving mesh good without changing its shape: intrinsic-Delaunay edge flips in space, */
@@ -4668,6 +5252,46 @@ Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/curvature.h ======== */
 
+/* ======== begin src/mesh/chart.h ======== */
+/* Lays a mesh inside closed loops flat in the unit disc without folds. */
+/* */
+/* In: a sphere with holes as mesh/loop_mesh.h makes them, the loops' vertices first. Out: a place */
+/* in the plane for each vertex; the longest loop runs counter-clockwise round the unit circle, the */
+/* others round holes, which a vertex of their own at the middle keeps open. Every free vertex is a */
+/* mean of its neighbours with positive weights: the cotangent weights, that keep angles, with those */
+/* of obtuse and sharp angles clamped. Such a map folds nothing, save by rounding: all triangles are */
+/* checked exactly. One factorisation of the size of the mesh. Sources: W. T. Tutte, "How to Draw a */
+/* Graph", 1963; M. Floater, "One-to-one Piecewise Linear Mappings over Triangulations", 2003. */
+
+namespace wireskin::mesh {
+
+/* Fails with patch_folded (no place) where rounding folds the map. */
+Status lay_flat(Context& context, Span<const uint32_t> start, Span<const Vec3> position,
+                Span<const uint32_t> triangle, Array<Vec2>* flat);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/chart.h ======== */
+
+/* ======== begin src/sparse/ordering.h ======== */
+/* A fill-reducing order for the Cholesky factorisation of a sparse symmetric matrix: approximate */
+/* minimum degree on the quotient graph. */
+/* */
+/* In: the pattern of the lower triangle (values are not read). Out: order[k] = the column */
+/* eliminated k-th, a permutation of 0 .. n - 1. Only integers decide, ties by the last inserted, so */
+/* the order is the same everywhere. Columns with more than 10 sqrt(n) neighbours go to the end. */
+/* Cost: in practice close to linear in the entries; memory 2.4 words per entry */
+/* stored and 18 per column. */
+/* */
+/* Source: Patrick Amestoy, Timothy Davis, Iain Duff, "An Approximate Minimum Degree Ordering */
+/* Algorithm", 1996. */
+
+namespace wireskin::sparse {
+
+Status minimum_degree(const Csc& lower, Array<uint32_t>* order);
+
+}  /* namespace wireskin::sparse */
+/* ======== end src/sparse/ordering.h ======== */
+
 /* ======== begin src/mesh/check.h ======== */
 /* The check that every mesh of the library passes, and that says of a bad one where it is bad. */
 /* */
@@ -4728,53 +5352,6 @@ Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const ui
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/cut.h ======== */
 
-/* ======== begin src/mesh/loop_mesh.h ======== */
-/* A triangle mesh of little area within closed loops in space: what a patch starts from where its */
-/* border has no plane to be projected to. */
-/* */
-/* In: the loops' positions (finite, scaled so that the extent is about one) and unit normals, the */
-/* patch on their left seen from the normals' tips; the wished spacing. Out: inner points and */
-/* triangles over the loops' vertices (0 .. n - 1) and the inner ones (from n). Invariants: a disc, */
-/* or with several loops a sphere with that many holes, whose border the loops are in their */
-/* direction; no vertex is added on it. *mesh is written on success only. First a triangulation of */
-/* the loops' vertices alone by dynamic programming, least in the sum of area * (1 + k (1 - cos)) */
-/* with the angle between a triangle and the mean of its normals, k 2 or for several loops 8; */
-/* several loops become one by bridges, the shortest along which their conormals lead. Then */
-/* mesh/loop_refine.h. At most k_most_kept vertices or so take part in the first, so its cost is */
-/* bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the */
-/* Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003. */
-
-namespace wireskin::mesh {
-
-struct LoopMesh {
-  Array<Vec3> inner;
-  Array<uint32_t> triangle;  /* three vertices each */
-
-  explicit LoopMesh(Context& context) : inner(context), triangle(context) {}
-};
-
-/* Loop i has the vertices start[i] .. start[i + 1). */
-struct Loops {
-  Span<const uint32_t> start;
-  Span<const Vec3> position, normal;  /* normals are zero where not known */
-
-  uint32_t count() const { return static_cast<uint32_t>(start.size() - 1); }
-  uint32_t next(uint32_t loop, uint32_t v) const {
-    return v + 1 == start[loop + 1] ? start[loop] : v + 1;
-  }
-  uint32_t previous(uint32_t loop, uint32_t v) const {
-    return (v == start[loop] ? start[loop + 1] : v) - 1;
-  }
-};
-
-/* Fail with patch_folded (no place) where neighbours coincide or the loops enclose no area. */
-Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh* mesh);
-Status mesh_loop(Context& context, Span<const Vec3> position, Span<const Vec3> normal,
-                 double spacing, LoopMesh* mesh);
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/loop_mesh.h ======== */
-
 /* ======== begin src/mesh/dome.h ======== */
 /* Raises a mesh inside closed loops so that it leaves them along their normals, curved as they are. */
 /* */
@@ -4791,31 +5368,17 @@ Status mesh_loop(Context& context, Span<const Vec3> position, Span<const Vec3> n
 namespace wireskin::mesh {
 
 /* Fails with not_positive_definite (no place) where triangles are too thin for the system. */
-Status raise_dome(Context& context, const Loops& loops, Span<const uint32_t> triangle,
-                  Span<Vec3> position);
+/* Vertices before `held` stay, the loops' own and those of curves inside. */
+Status raise_dome(Context& context, const Loops& loops, uint32_t held,
+                  Span<const uint32_t> triangle, Span<Vec3> position);
+
+/* Completes a field of shifts that is given at the vertices before `held`: least in the squares of */
+/* its Laplacian, level across the border. A field that the mesh is too thin for stays zero inside. */
+Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
+                    Span<const uint32_t> triangle, Span<Vec3> shift);
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/dome.h ======== */
-
-/* ======== begin src/sparse/ordering.h ======== */
-/* A fill-reducing order for the Cholesky factorisation of a sparse symmetric matrix: approximate */
-/* minimum degree on the quotient graph. */
-/* */
-/* In: the pattern of the lower triangle (values are not read). Out: order[k] = the column */
-/* eliminated k-th, a permutation of 0 .. n - 1. Only integers decide, ties by the last inserted, so */
-/* the order is the same everywhere. Columns with more than 10 sqrt(n) neighbours go to the end. */
-/* Cost: in practice close to linear in the entries; memory 2.4 words per entry */
-/* stored and 18 per column. */
-/* */
-/* Source: Patrick Amestoy, Timothy Davis, Iain Duff, "An Approximate Minimum Degree Ordering */
-/* Algorithm", 1996. */
-
-namespace wireskin::sparse {
-
-Status minimum_degree(const Csc& lower, Array<uint32_t>* order);
-
-}  /* namespace wireskin::sparse */
-/* ======== end src/sparse/ordering.h ======== */
 
 /* ======== begin src/sparse/product.h ======== */
 /* The weighted product of two sparse matrices, A diag(w) B, cut down to the rows and columns of the */
@@ -4839,567 +5402,55 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
 }  /* namespace wireskin::sparse */
 /* ======== end src/sparse/product.h ======== */
 
-/* ======== begin src/network/bend.h ======== */
-/* Bends curves smoothly so that their joints come to given places. */
+/* ======== begin src/mesh/inlay.h ======== */
+/* Lets the mesh inside closed loops pass through curves and points that lie on it or near it. */
 /* */
-/* In: the samples of a curve in order with their arc length, and for some of them (pins) the */
-/* displacement. Out: the displacement of all: that of each pin, faded out to both sides by a */
-/* polynomial with two vanishing derivatives at both ends, over 16 times its length or as far as the */
-/* next pin. So directions turn by less than 7 degrees where pins leave room, samples beyond keep */
-/* their bits, and no kink arises at a joint. O(samples). */
+/* In: the mesh, the loops' vertices first; the points to pass through and the edges between them */
+/* and loop vertices. Each point is projected to the nearest place of the mesh; there the edges are */
+/* drawn in a flat chart of the mesh (mesh/chart.h) and made part of a constrained Delaunay */
+/* triangulation, which decides exactly whether they cross. Out: loop vertices, the points where */
+/* they are given, then free vertices: those of the mesh but for the ones nearest to the curves, */
+/* refined, and shifted by the least bending field that carries the curves from the mesh to their */
+/* own place and holds the loops. Invariants: every edge given is an edge of the mesh, which stays a */
+/* manifold of the same kind. Cost: two factorisations of the size of the mesh, and the points and */
+/* edges given times the vertices. Source: P. Schneider, D. Eberly, "Geometric Tools for Computer */
+/* Graphics", 2003 (nearest point of a triangle). */
 
-namespace wireskin::network {
+namespace wireskin::mesh {
 
-struct Bend {
-  Span<const double> arc;  /* ascending */
-  double length = 0.0;     /* of the whole curve, closing edge included */
-  bool closed = false;
-  Span<const uint8_t> pinned;
-  Span<Vec3> displacement;  /* of pins on entry, of all on exit; that of others is zero on entry */
+/* With n loop vertices, number v < n is a loop vertex and n + i is point[i]. */
+struct Inlay {
+  Span<const Vec3> point;
+  Span<const uint32_t> edge;  /* two numbers each, the lesser first, sorted */
 };
 
-void bend_curve(const Bend& bend);
+/* Fails with patch_folded where the curves cross each other or the loops, or lie beside the mesh; */
+/* the place's vertex is then the number of a point concerned, or k_none. */
+Status inlay_curves(Context& context, Span<const uint32_t> start, const Inlay& inlay,
+                    double spacing, Array<Vec3>* position, Array<uint32_t>* triangle);
 
-}  /* namespace wireskin::network */
-/* ======== end src/network/bend.h ======== */
+/* The point of the triangle a b c nearest to p, by its weights at the corners. */
+Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/* ======== begin src/network/nodes.h ======== */
-/* Nodes: the points that several curves share. */
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/inlay.h ======== */
+
+/* ======== begin src/planar/insertion_order.h ======== */
+/* The order in which points are best added to a triangulation: in rounds of growing size, each */
+/* along a Hilbert curve, so that every walk is short and no input makes incremental insertion */
+/* slow. */
 /* */
-/* In: for every sample the number the caller gave it (k_none: none). Numbers that occur at two */
-/* samples or more are nodes, whichever curves those belong to. Out: the nodes in ascending order of */
-/* their numbers and the node of each sample. A node has the position of its first sample (the */
-/* others must agree with it) and the mean of its samples' normals. Where sharp curves pass, normals */
-/* may differ: there the mean is that of the sharp curves' sides, or of all normals where some side */
-/* is not known. O(s log s). */
+/* In: points with finite coordinates. Out: a permutation of their indices, the same in every run. */
+/* Cost: O(n), 32 bytes a point of scratch. */
+/* Source: N. Amenta, S. Choi, G. Rote, "Incremental Constructions con BRIO", 2003; D. Hilbert, */
+/* "Ueber die stetige Abbildung einer Linie auf ein Flaechenstueck", 1891. */
 
-namespace wireskin::network {
+namespace wireskin::planar {
 
-struct Node {
-  Vec3 position;
-  Vec3 normal;          /* unit; zero where no normal is known yet */
-  uint32_t number;      /* the caller's */
-  bool crease = false;  /* sharp curves pass here */
-  bool certain = true;  /* all normals here are known */
-};
+Status insertion_order(Span<const Vec2> points, Array<uint32_t>* order);
 
-/* The samples of all curves one after the other; curve c has start[c] .. start[c + 1). */
-struct SampleNumbers {
-  Span<const uint32_t> start;
-  Span<const uint32_t> number;
-  Span<const Vec3> position;
-  Span<const Vec3> normal;         /* unit */
-  Span<const uint8_t> sharp = {};  /* of each curve; empty: none */
-  Span<const Vec3> right = {};     /* unit, of sharp curves; normals may be zero there: unknown */
-};
-
-/* `tolerance`: how far samples of one node may lie apart. Fails with node_mismatch or */
-/* inconsistent_normals, naming curve, sample and number. */
-Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
-                  Array<uint32_t>* node_of_sample);
-
-/* Ends of open curves that nothing else meets, and points (curves of one sample), become nodes too, */
-/* without a number and behind all others. `closed`: of each curve. */
-Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
-                      Span<uint32_t> node_of_sample);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/nodes.h ======== */
-
-/* ======== begin src/network/network.h ======== */
-/* The graph of a curve network: segments of curve between nodes, and the cycles that bound patches. */
-/* */
-/* Seen from the tip of a node's normal the segments round it have a cyclic order. Who enters a node */
-/* by one segment and leaves it by the next one clockwise keeps one patch on the left all the way */
-/* round: so every side of every segment lies on exactly one cycle. Beyond the boundary there is no */
-/* surface: the cycles there are dropped. A segment with the same cycle on both sides lies inside */
-/* its patch (it dangles, or joins two loops); what is left of the cycle without such segments are */
-/* the loops of the patch. Loops of different connected components come together in network/group.h. */
-/* */
-/* Invariants: half-segment 2 s runs along its curve, 2 s + 1 against it, each with a patch on its */
-/* left; of a boundary segment exactly one has one. O(samples + segments log segments). Source: T. */
-/* Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.2. */
-
-namespace wireskin::network {
-
-struct Segment {
-  uint32_t curve;
-  uint32_t first_knot, last_knot;  /* last_knot > first_knot */
-  uint32_t from, to;               /* nodes; k_none both for a closed curve without node */
-  bool boundary;
-};
-
-inline uint32_t opposite(uint32_t half_segment) {
-  return half_segment ^ 1u;
-}
-
-/* Lists one after the other: list i has the items start[i] .. start[i + 1). */
-struct Lists {
-  Array<uint32_t> start, item;
-
-  explicit Lists(Context& context) : start(context), item(context) {}
-  uint32_t count() const { return start.empty() ? 0 : static_cast<uint32_t>(start.size() - 1); }
-  Span<const uint32_t> operator[](uint32_t i) const {
-    return item.span().part(start[i], start[i + 1] - start[i]);
-  }
-  /* Ends the list to which items were pushed since the last one ended. */
-  Status close() {
-    if (start.empty()) TRY(start.push(0));
-    return start.push(static_cast<uint32_t>(item.size()));
-  }
-};
-
-struct Network {
-  Array<Segment> segment;
-  Lists loop;                   /* half-segments, each loop with its patch on the left */
-  Array<uint32_t> patch_start;  /* patch p has the loops patch_start[p] .. patch_start[p + 1) */
-  Lists inner;                  /* of each patch: segments inside it, the same patch on both sides */
-  Lists point;                  /* of each patch: nodes inside it that no segment meets */
-  /* Of each patch: a closed chain of boundary curves that no other curve meets, so that either side */
-  /* of it may be the one with the surface. The loop given is the one that runs counter-clockwise. */
-  Array<uint8_t> ring;
-  Lists loose;  /* segments joined to nothing that bounds a patch, connected ones together */
-
-  explicit Network(Context& context)
-      : segment(context),
-        loop(context),
-        patch_start(context),
-        inner(context),
-        point(context),
-        ring(context),
-        loose(context) {}
-  uint32_t patches() const {
-    return patch_start.empty() ? 0 : static_cast<uint32_t>(patch_start.size() - 1);
-  }
-  /* The half-segments of all loops of a patch. */
-  Span<const uint32_t> cycle(uint32_t patch) const {
-    const uint32_t first = loop.start[patch_start[patch]];
-    return loop.item.span().part(first, loop.start[patch_start[patch + 1]] - first);
-  }
-};
-
-/* `boundary`: of each curve, whether the surface ends there. Every cycle becomes a patch of its */
-/* own. Fails with open_network at ends without node, at boundary curves with surface on both sides */
-/* and at curves where there is no surface, with tangent_normal or inconsistent_normals at nodes */
-/* whose segments have no order, with patch_several_loops where a patch would have a handle. */
-Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
-                    Span<const Node> nodes, Network* network);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/network.h ======== */
-
-/* ======== begin src/network/resample.h ======== */
-/* The vertices on the curves: every segment divided evenly by arc length. */
-/* */
-/* In: fitted curves, nodes, segments, the wished spacing. Out: the nodes (vertex i is node i, bit */
-/* for bit), then the inner vertices of each segment in order, with unit normals. A segment has the */
-/* number of edges nearest to its length over the spacing, but enough that no two segments share an */
-/* edge: three where it returns to its own node, two where another one joins the same nodes. */
-/* O(vertices). */
-
-namespace wireskin::network {
-
-struct CurveVertices {
-  Array<Vec3> position;
-  Array<Vec3> normal;     /* unit */
-  Array<uint32_t> curve;  /* of each vertex; at a node the least */
-  Array<uint32_t> edges;  /* of each segment */
-  Array<uint32_t> first;  /* of each segment: its first inner vertex */
-  uint32_t nodes = 0;     /* the first vertices */
-  double length = 0.0;    /* of all segments together */
-  /* Normals on the left and on the right at vertex k of segment s: entry side_start[s] + k. Zero */
-  /* where they are not known. Empty where no curve is sharp. */
-  Array<uint32_t> side_start;
-  Array<Vec3> left, right;
-
-  explicit CurveVertices(Context& context)
-      : position(context),
-        normal(context),
-        curve(context),
-        edges(context),
-        first(context),
-        side_start(context),
-        left(context),
-        right(context) {}
-};
-
-/* Fails with too_large, or with inconsistent_normals where opposite normals cancel out on a curve. */
-Status resample(const curves::Curves& curves, Span<const Node> nodes, const Network& network,
-                double spacing, CurveVertices* vertices);
-
-/* Vertex k of segment s, 0 <= k <= edges[s]. */
-uint32_t segment_vertex(const Network& network, const CurveVertices& vertices, uint32_t s,
-                        uint32_t k);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/resample.h ======== */
-
-/* ======== begin src/network/border.h ======== */
-/* The border of a patch as vertices: its loops one after the other, with the normals of the patch's */
-/* own side, and what lies inside it. */
-/* */
-/* In: network and curve vertices. Out: the vertices of each loop in order with the patch on the */
-/* left. A loop begins at its least point, nodes before others, whatever the order and the direction */
-/* in which the curves were given. At a node the normal is the mean of those of the two segments */
-/* that meet there. O(border). */
-
-namespace wireskin::network {
-
-struct Border {
-  Array<uint32_t> start;   /* loop i has the vertices start[i] .. start[i + 1) */
-  Array<uint32_t> vertex;  /* a vertex that loops pass twice stands here twice */
-  Array<Vec3> position;
-  Array<Vec3> normal;  /* zero where not known */
-
-  explicit Border(Context& context)
-      : start(context), vertex(context), position(context), normal(context) {}
-  uint32_t loops() const { return static_cast<uint32_t>(start.size() - 1); }
-  uint32_t size() const { return static_cast<uint32_t>(vertex.size()); }
-};
-
-Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t patch,
-                       Border* border);
-
-/* The position along its loop after i, and before it. */
-uint32_t next_on_border(const Border& border, uint32_t loop, uint32_t i);
-
-/* Twice the vector area of the loops together. */
-Vec3 vector_area(const Border& border);
-
-/* The mean of the unit normals known, and the length of all loops. */
-Vec3 mean_normal(const Border& border);
-double border_length(const Border& border);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/border.h ======== */
-
-/* ======== begin src/network/side_normals.h ======== */
-/* The normals on both sides of the vertices on the curves, where some curves are sharp. */
-/* */
-/* In: curves with their fields on the right, segments, vertices. Out: CurveVertices::left and */
-/* ::right, and for the vertices inside sharp segments the mean of both. At a node every segment has */
-/* the normals of its own curve there. O(vertices). */
-
-namespace wireskin::network {
-
-/* Fails with inconsistent_normals where opposite normals cancel out on a curve. */
-Status resample_sides(const curves::Curves& curves, const Network& network,
-                      CurveVertices* vertices);
-
-/* The normal on the left of half-segment h at its vertex k, counted in its own direction; zero */
-/* where it is not known. */
-Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t h, uint32_t k);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/side_normals.h ======== */
-
-/* ======== begin src/network/border_check.h ======== */
-/* Borders that no surface can have, sought where the plane of a patch fails: those that cross */
-/* themselves in space, and those that run clockwise round their own normals, as the outside of an */
-/* open surface does whose border is not tagged. */
-/* */
-/* In: the loops of a border with their normals (zero: unknown). Out: a status without place. */
-/* O(n^2), with cheap rejections. */
-
-namespace wireskin::network {
-
-/* Fails with patch_folded or patch_without_plane. */
-Status check_border(const Border& border);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/border_check.h ======== */
-
-/* ======== begin src/network/patch_mesh.h ======== */
-/* From cycles to one mesh: every cycle is projected to its plane, triangulated there, and the */
-/* patches are joined along the curves. */
-/* */
-/* In: the vertices on the curves and the cycles. Out: triangles over the curve vertices (first) and */
-/* the free vertices, each triangle with its shape in its patch's plane, the metric of the paper's */
-/* method. The plane goes through the mean of the border's positions across the mean of its normals. */
-/* A patch whose border has no plane, or folds in it, is meshed in space instead (mesh/loop_mesh.h), */
-/* and its triangles have their shapes there. */
-/* No vertex is ever added on a curve, so patches conform; a chord between curve vertices that would */
-/* stand in two patches, or beside a curve, is split by a free vertex. O(n log n). Source: T. Stanko */
-/* et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3. */
-
-namespace wireskin::network {
-
-/* How a patch got its triangles. */
-enum class PatchWay : uint8_t { plane, minimal_area };
-
-struct PatchMesh {
-  uint32_t vertices = 0;
-  uint32_t curve_vertices = 0;
-  Array<uint32_t> triangle;          /* three vertices each */
-  Array<uint32_t> patch;             /* of each triangle */
-  Array<mesh::TriangleShape> shape;  /* of each triangle, in its patch's plane or in space */
-  Array<PatchWay> way;               /* of each patch */
-  Array<Status> status;              /* of each patch: why it has no triangles */
-  Array<Vec3> start;                 /* of each vertex: on its curve, in its plane or in space */
-  Array<uint8_t> placed;             /* of each vertex: free, and where it starts in space matters */
-
-  explicit PatchMesh(Context& context)
-      : triangle(context),
-        patch(context),
-        shape(context),
-        way(context),
-        status(context),
-        start(context),
-        placed(context) {}
-};
-
-/* `least_facing`: a plane is taken only where the mean cosine between its normal and those of the */
-/* border is at least this; -1 takes every plane that shows the border without folds. Fails, naming */
-/* the patch and a curve of it, with patch_without_plane where the border runs clockwise, with */
-/* patch_folded where it crosses itself or encloses nothing in space either, or curves lie inside a */
-/* patch that no plane shows. With `partial` such patches are left without triangles, their vertices */
-/* maybe too; it fails only where no patch can be made. */
-Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    bool partial, PatchMesh* mesh);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/patch_mesh.h ======== */
-
-/* ======== begin src/network/crease.h ======== */
-/* Creases: the mesh of the patches cut open along the sharp curves for the smoothing, and put */
-/* together again. */
-/* */
-/* In: the network with the normals on both sides of its curves, and the mesh of its patches. Out: a */
-/* mesh in which sharp curves are open borders, each copy of a vertex with the normal of its own */
-/* sector: the mean of the sides of the sharp curves that bound it and of the curves inside it. */
-/* Where none of these is known the copy is bare. Held vertices do not move, so copies stay */
-/* together. O(triangles). */
-
-namespace wireskin::network {
-
-struct CreasedMesh {
-  mesh::Cut cut;
-  Array<Vec3> position, normal;
-  Array<uint8_t> held, bare, on_border;
-
-  explicit CreasedMesh(Context& context)
-      : cut(context),
-        position(context),
-        normal(context),
-        held(context),
-        bare(context),
-        on_border(context) {}
-};
-
-/* Whether any curve is sharp; if not, nothing below is needed. */
-inline bool has_creases(const CurveVertices& vertices) {
-  return !vertices.side_start.empty();
-}
-
-/* `sharp`: of each curve; `position`: of each vertex of the mesh. Fails with inconsistent_normals, */
-/* naming node and curve, where the normals of one sector oppose each other. */
-Status cut_along_creases(const Network& network, const CurveVertices& vertices,
-                         Span<const uint8_t> sharp, Span<const Node> nodes, const PatchMesh& mesh,
-                         Span<const Vec3> position, CreasedMesh* creased);
-
-/* Brings positions and triangles back to the vertices of the uncut mesh. */
-void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle);
-
-/* Of each vertex of the uncut mesh. */
-struct VertexMeasures {
-  Span<Vec3> normal;
-  Span<double> mean_curvature;
-  Span<Vec3> constraint_normal;  /* zero where free, or not known */
-  /* Over the sides, and over the edges of the curves that are no creases. */
-  mesh::AngleStatistics* normal_deviation;
-  mesh::AngleStatistics* dihedral;
-};
-
-/* At creases all of these are those of the sides, each measured by itself, in the mean. */
-/* `patch`: of each triangle. */
-Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
-                     Span<const uint32_t> patch, const VertexMeasures& measures);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/crease.h ======== */
-
-/* ======== begin src/network/plane.h ======== */
-/* The plane of a patch: through the mean position of its border, across the mean normal; across the */
-/* vector area of the border where it has no normals. */
-/* */
-/* In: the loops of a border. Out: plane coordinates, so that a border that runs */
-/* counter-clockwise seen from the tip of the normal does so in the plane. The first axis points */
-/* from the mean to the first vertex, so that a rotated network gives rotated patches. O(border). */
-/* Source: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3. */
-
-namespace wireskin::network {
-
-struct Plane {
-  Vec3 origin, u, v, normal;
-
-  Vec2 project(const Vec3& p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
-  Vec3 lift(Vec2 p) const { return origin + p.x * u + p.y * v; }
-  double height(const Vec3& p) const { return dot(p - origin, normal); }
-};
-
-/* Fails with patch_without_plane (no place) where the normals cancel out. */
-Status fit_plane(const Border& border, Plane* plane);
-
-/* The plane of that normal through the mean of the border. */
-Plane plane_across(const Border& border, const Vec3& normal);
-
-/* Rounds plane coordinates, and a spacing, to a grid of 2^-32 of the polygon's extent. Which */
-/* triangles a patch gets then does not hang on the last bits of its border, which depend on the */
-/* direction in which curves were given. */
-void round_to_grid(Span<Vec2> polygon, double* spacing);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/plane.h ======== */
-
-/* ======== begin src/network/enclosure.h ======== */
-/* Which patch encloses each connected component of the curves: a curve inside a patch without being */
-/* connected to its border is a second loop of the border, or holds the patch's inside. */
-/* */
-/* In: network and curve vertices, every cycle a patch of its own. A component is enclosed where all */
-/* its vertices project into the patch's border, no farther from its plane than the border itself */
-/* and a share of its width (a twentieth; half of it for pieces that bound nothing themselves and */
-/* face the way the patch does). Of several such patches the one counts that is least in the sum of */
-/* its size and four times how far the component lies beyond the border's heights. Cost: components */
-/* are sorted by place, so a patch looks only at those in its own range of x; all vertices where a */
-/* piece's first vertex is inside. */
-
-namespace wireskin::network {
-
-struct Components {
-  Array<uint32_t> of_vertex;  /* of each curve vertex; a node without segments is one of its own */
-  Lists members;              /* the vertices of each component */
-  Array<uint8_t> bounds;      /* of each component: has a cycle that bounds a patch */
-
-  explicit Components(Context& context) : of_vertex(context), members(context), bounds(context) {}
-};
-
-Status find_components(const Network& network, const CurveVertices& vertices,
-                       Components* components);
-
-struct Enclosing {
-  uint32_t patch = k_none;
-  double score = 0.0;
-  Vec3 normal;  /* of the patch's plane */
-};
-
-/* Of each component. */
-Status find_enclosing(const Network& network, const CurveVertices& vertices,
-                      const Components& components, Array<Enclosing>* enclosing);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/enclosure.h ======== */
-
-/* ======== begin src/network/group.h ======== */
-/* Which loops bound a patch together, and which pieces lie inside which patch: the connected */
-/* components of a network brought together. */
-/* */
-/* In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same */
-/* network with patches of several loops and with inner segments and points. Two rules, in this */
-/* order; where neither applies every cycle stays a patch. */
-/* 1. A component enclosed by a patch in its plane (network/enclosure.h) joins it by the cycle that */
-/* runs clockwise there and faces the same way. A ring of boundary curves becomes a hole; what */
-/* bounds nothing (dangling curves, points) holds the patch's inside. */
-/* 2. Other loops face each other: where the conormals, which point into the patch along the */
-/* surface, lead from either loop to the other, and a band between the two has less area than */
-/* closing both alone would take. A loop closed alone costs the area of the spherical cap that */
-/* leaves it along its conormals, 2 A / (1 + m) for a circle of area A and the mean cosine m between */
-/* its normals and its axis; times (2 / (1 + m))^2, because a cap that leaves so much to guess is */
-/* worth a longer band. Nearest pairs join first, never two loops of the same component. O(n log n) */
-/* and the pairs of loops of rule 2 that are near each other. */
-
-namespace wireskin::network {
-
-/* Patches of several loops that might as well have been others: how many, and the first of them. */
-struct Ambiguity {
-  uint32_t patches = 0;
-  uint32_t first = k_none;
-};
-
-/* `ambiguity` may be null. Fails with open_network for pieces that lie in no patch, and for a */
-/* boundary curve none of whose sides is the inside by its normals. */
-Status group_patches(const CurveVertices& vertices, Network* network,
-                     Ambiguity* ambiguity = nullptr);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/group.h ======== */
-
-/* ======== begin src/network/kept_parts.h ======== */
-/* The kept samples of a network, one connected component after the other: curves that share a node */
-/* are of one component, so that each can be looked at by itself. */
-/* */
-/* In: kept samples. Out: the same in an order of components (by their first curves), each a view */
-/* like that of the whole network but with nodes counted within it. Positions and normals are not */
-/* copied: what is written to a part is written to the network. O(samples). */
-
-namespace wireskin::network {
-
-class KeptParts {
- public:
-  explicit KeptParts(Context& context)
-      : first_curve_(context),
-        first_kept_(context),
-        start_(context),
-        kept_(context),
-        kept_start_(context),
-        node_(context),
-        closed_(context) {}
-
-  /* `samples` must outlive the parts. */
-  Status split(const KeptSamples& samples);
-
-  uint32_t count() const { return static_cast<uint32_t>(first_curve_.size() - 1); }
-  KeptSamples part(uint32_t p) const;
-
- private:
-  Status sort_curves(Array<uint32_t>* order);
-  Status copy_curves(Span<const uint32_t> order);
-  Status number_nodes();
-
-  KeptSamples samples_ = {};
-  Array<uint32_t> first_curve_, first_kept_;  /* of each part, in the order of parts */
-  Array<uint32_t> start_, kept_;
-  Array<uint32_t> kept_start_;  /* counted from the part's first; one more for each part */
-  Array<uint32_t> node_;
-  Array<uint8_t> closed_;
-};
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/kept_parts.h ======== */
-
-/* ======== begin src/network/node_normals.h ======== */
-/* Normals for the nodes of sharp curves where not all sides, or none, are known: needed only to put */
-/* the curves round a node in order. */
-/* */
-/* In: curves, nodes. Out: a unit normal at every node of a crease. The axis of a node is across the */
-/* plane that fits best the tips of the unit tangents that leave it: seen along it, the edges of a */
-/* convex corner and the curves of a smooth point stand in their order. Its sense is that of the */
-/* normals known there; or else it follows from a neighbour along a curve; where no node of a */
-/* component has any, the axes point away from its middle. Fails with missing_normals, naming the */
-/* node, where that decides nothing. O(knots + nodes^2 in the worst case of one long chain, else */
-/* near linear). */
-
-namespace wireskin::network {
-
-Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/node_normals.h ======== */
-
-/* ======== begin src/network/partial.h ======== */
-/* A network without some of its patches, for callers who want the others all the same. */
-/* */
-/* In: nodes, network, and of each patch whether it could be made. Out: both without the patches */
-/* that could not, without the segments and nodes that bounded or held nothing else; a segment with */
-/* a patch left on one side only is boundary. O(segments). */
-
-namespace wireskin::network {
-
-/* `original`: of each patch that is left, its number before. */
-Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
-                    Array<uint32_t>* original);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/partial.h ======== */
+}  /* namespace wireskin::planar */
+/* ======== end src/planar/insertion_order.h ======== */
 
 /* ======== begin src/planar/constrained_delaunay.h ======== */
 /* A constrained Delaunay triangulation that grows: points and constraint edges are added one at a */
@@ -5577,6 +5628,712 @@ Status triangulate_region(const Region& region, Triangulation* t, Array<uint32_t
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/region.h ======== */
 
+/* ======== begin src/network/bend.h ======== */
+/* Bends curves smoothly so that their joints come to given places. */
+/* */
+/* In: the samples of a curve in order with their arc length, and for some of them (pins) the */
+/* displacement. Out: the displacement of all: that of each pin, faded out to both sides by a */
+/* polynomial with two vanishing derivatives at both ends, over 16 times its length or as far as the */
+/* next pin. So directions turn by less than 7 degrees where pins leave room, samples beyond keep */
+/* their bits, and no kink arises at a joint. O(samples). */
+
+namespace wireskin::network {
+
+struct Bend {
+  Span<const double> arc;  /* ascending */
+  double length = 0.0;     /* of the whole curve, closing edge included */
+  bool closed = false;
+  Span<const uint8_t> pinned;
+  Span<Vec3> displacement;  /* of pins on entry, of all on exit; that of others is zero on entry */
+};
+
+void bend_curve(const Bend& bend);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/bend.h ======== */
+
+/* ======== begin src/network/nodes.h ======== */
+/* Nodes: the points that several curves share. */
+/* */
+/* In: for every sample the number the caller gave it (k_none: none). Numbers that occur at two */
+/* samples or more are nodes, whichever curves those belong to. Out: the nodes in ascending order of */
+/* their numbers and the node of each sample. A node has the position of its first sample (the */
+/* others must agree with it) and the mean of its samples' normals. Where sharp curves pass, normals */
+/* may differ: there the mean is that of the sharp curves' sides, or of all normals where some side */
+/* is not known. O(s log s). */
+
+namespace wireskin::network {
+
+struct Node {
+  Vec3 position;
+  Vec3 normal;          /* unit; zero where no normal is known yet */
+  uint32_t number;      /* the caller's */
+  bool crease = false;  /* sharp curves pass here */
+  bool certain = true;  /* all normals here are known */
+};
+
+/* The samples of all curves one after the other; curve c has start[c] .. start[c + 1). */
+struct SampleNumbers {
+  Span<const uint32_t> start;
+  Span<const uint32_t> number;
+  Span<const Vec3> position;
+  Span<const Vec3> normal;         /* unit */
+  Span<const uint8_t> sharp = {};  /* of each curve; empty: none */
+  Span<const Vec3> right = {};     /* unit, of sharp curves; normals may be zero there: unknown */
+};
+
+/* `tolerance`: how far samples of one node may lie apart. Fails with node_mismatch or */
+/* inconsistent_normals, naming curve, sample and number. */
+Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
+                  Array<uint32_t>* node_of_sample);
+
+/* Ends of open curves that nothing else meets, and points (curves of one sample), become nodes too, */
+/* without a number and behind all others. `closed`: of each curve. */
+Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
+                      Span<uint32_t> node_of_sample);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/nodes.h ======== */
+
+/* ======== begin src/network/network.h ======== */
+/* The graph of a curve network: segments of curve between nodes, and the cycles that bound patches. */
+/* */
+/* Seen from the tip of a node's normal the segments round it have a cyclic order. Who enters a node */
+/* by one segment and leaves it by the next one clockwise keeps one patch on the left all the way */
+/* round: so every side of every segment lies on exactly one cycle. Beyond the boundary there is no */
+/* surface: the cycles there are dropped. A segment with the same cycle on both sides lies inside */
+/* its patch (it dangles, or joins two loops); what is left of the cycle without such segments are */
+/* the loops of the patch. Loops of different connected components come together in network/group.h. */
+/* */
+/* Invariants: half-segment 2 s runs along its curve, 2 s + 1 against it, each with a patch on its */
+/* left; of a boundary segment exactly one has one. O(samples + segments log segments). Source: T. */
+/* Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.2. */
+
+namespace wireskin::network {
+
+struct Segment {
+  uint32_t curve;
+  uint32_t first_knot, last_knot;  /* last_knot > first_knot */
+  uint32_t from, to;               /* nodes; k_none both for a closed curve without node */
+  bool boundary;
+};
+
+inline uint32_t opposite(uint32_t half_segment) {
+  return half_segment ^ 1u;
+}
+
+/* Lists one after the other: list i has the items start[i] .. start[i + 1). */
+struct Lists {
+  Array<uint32_t> start, item;
+
+  explicit Lists(Context& context) : start(context), item(context) {}
+  uint32_t count() const { return start.empty() ? 0 : static_cast<uint32_t>(start.size() - 1); }
+  Span<const uint32_t> operator[](uint32_t i) const {
+    return item.span().part(start[i], start[i + 1] - start[i]);
+  }
+  /* Ends the list to which items were pushed since the last one ended. */
+  Status close() {
+    if (start.empty()) TRY(start.push(0));
+    return start.push(static_cast<uint32_t>(item.size()));
+  }
+};
+
+struct Network {
+  Array<Segment> segment;
+  Lists loop;                   /* half-segments, each loop with its patch on the left */
+  Array<uint32_t> patch_start;  /* patch p has the loops patch_start[p] .. patch_start[p + 1) */
+  Lists inner;                  /* of each patch: segments inside it, the same patch on both sides */
+  Lists point;                  /* of each patch: nodes inside it that no segment meets */
+  /* Of each patch: a closed chain of boundary curves that no other curve meets, so that either side */
+  /* of it may be the one with the surface. The loop given is the one that runs counter-clockwise. */
+  Array<uint8_t> ring;
+  Lists loose;  /* segments joined to nothing that bounds a patch, connected ones together */
+
+  explicit Network(Context& context)
+      : segment(context),
+        loop(context),
+        patch_start(context),
+        inner(context),
+        point(context),
+        ring(context),
+        loose(context) {}
+  uint32_t patches() const {
+    return patch_start.empty() ? 0 : static_cast<uint32_t>(patch_start.size() - 1);
+  }
+  /* The half-segments of all loops of a patch. */
+  Span<const uint32_t> cycle(uint32_t patch) const {
+    const uint32_t first = loop.start[patch_start[patch]];
+    return loop.item.span().part(first, loop.start[patch_start[patch + 1]] - first);
+  }
+};
+
+/* `boundary`: of each curve, whether the surface ends there. Every cycle becomes a patch of its */
+/* own. Fails with open_network at ends without node, at boundary curves with surface on both sides */
+/* and at curves where there is no surface, with tangent_normal or inconsistent_normals at nodes */
+/* whose segments have no order, with patch_several_loops where a patch would have a handle. */
+/* `faults`, if given, gets what is wrong at each segment instead, except for ends without node and */
+/* handles of loose pieces: no patch at such a segment is to be made. */
+Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
+                    Span<const Node> nodes, Network* network, Array<Status>* faults = nullptr);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/network.h ======== */
+
+/* ======== begin src/network/resample.h ======== */
+/* The vertices on the curves: every segment divided evenly by arc length. */
+/* */
+/* In: fitted curves, nodes, segments, the wished spacing. Out: the nodes (vertex i is node i, bit */
+/* for bit), then the inner vertices of each segment in order, with unit normals. A segment has the */
+/* number of edges nearest to its length over the spacing, but enough that no two segments share an */
+/* edge: three where it returns to its own node, two where another one joins the same nodes. */
+/* O(vertices). */
+
+namespace wireskin::network {
+
+struct CurveVertices {
+  Array<Vec3> position;
+  Array<Vec3> normal;     /* unit */
+  Array<uint32_t> curve;  /* of each vertex; at a node the least */
+  Array<uint32_t> edges;  /* of each segment */
+  Array<uint32_t> first;  /* of each segment: its first inner vertex */
+  uint32_t nodes = 0;     /* the first vertices */
+  double length = 0.0;    /* of all segments together */
+  /* Normals on the left and on the right at vertex k of segment s: entry side_start[s] + k. Zero */
+  /* where they are not known. Empty where no curve is sharp. */
+  Array<uint32_t> side_start;
+  Array<Vec3> left, right;
+
+  explicit CurveVertices(Context& context)
+      : position(context),
+        normal(context),
+        curve(context),
+        edges(context),
+        first(context),
+        side_start(context),
+        left(context),
+        right(context) {}
+};
+
+/* Fails with too_large, or with inconsistent_normals where opposite normals cancel out on a curve. */
+Status resample(const curves::Curves& curves, Span<const Node> nodes, const Network& network,
+                double spacing, CurveVertices* vertices);
+
+/* Vertex k of segment s, 0 <= k <= edges[s]. */
+uint32_t segment_vertex(const Network& network, const CurveVertices& vertices, uint32_t s,
+                        uint32_t k);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/resample.h ======== */
+
+/* ======== begin src/network/border.h ======== */
+/* The border of a patch as vertices: its loops one after the other, with the normals of the patch's */
+/* own side, and what lies inside it. */
+/* */
+/* In: network and curve vertices. Out: the vertices of each loop in order with the patch on the */
+/* left. A loop begins at its least point, nodes before others, whatever the order and the direction */
+/* in which the curves were given. At a node the normal is the mean of those of the two segments */
+/* that meet there. O(border). */
+
+namespace wireskin::network {
+
+struct Border {
+  Array<uint32_t> start;   /* loop i has the vertices start[i] .. start[i + 1) */
+  Array<uint32_t> vertex;  /* a vertex that loops pass twice stands here twice */
+  Array<Vec3> position;
+  Array<Vec3> normal;  /* zero where not known */
+
+  explicit Border(Context& context)
+      : start(context), vertex(context), position(context), normal(context) {}
+  uint32_t loops() const { return static_cast<uint32_t>(start.size() - 1); }
+  uint32_t size() const { return static_cast<uint32_t>(vertex.size()); }
+};
+
+Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t patch,
+                       Border* border);
+
+/* The position along its loop after i, and before it. */
+uint32_t next_on_border(const Border& border, uint32_t loop, uint32_t i);
+
+/* Twice the vector area of the loops together. */
+Vec3 vector_area(const Border& border);
+
+/* The mean of the unit normals known, and the length of all loops. */
+Vec3 mean_normal(const Border& border);
+double border_length(const Border& border);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/border.h ======== */
+
+/* ======== begin src/network/side_normals.h ======== */
+/* The normals on both sides of the vertices on the curves, where some curves are sharp. */
+/* */
+/* In: curves with their fields on the right, segments, vertices. Out: CurveVertices::left and */
+/* ::right, and for the vertices inside sharp segments the mean of both. At a node every segment has */
+/* the normals of its own curve there. O(vertices). */
+
+namespace wireskin::network {
+
+/* Fails with inconsistent_normals where opposite normals cancel out on a curve. */
+Status resample_sides(const curves::Curves& curves, const Network& network,
+                      CurveVertices* vertices);
+
+/* The normal on the left of half-segment h at its vertex k, counted in its own direction; zero */
+/* where it is not known. */
+Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t h, uint32_t k);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/side_normals.h ======== */
+
+/* ======== begin src/network/border_check.h ======== */
+/* Borders that no surface can have, sought where the plane of a patch fails: those that cross */
+/* themselves in space, and those that run clockwise round their own normals, as the outside of an */
+/* open surface does whose border is not tagged; and those whose normals ask for a one-sided surface */
+/* or for crossings (network/linking.h). */
+/* */
+/* In: the loops of a border with their normals (zero: unknown). Out: a status without place. */
+/* O(n^2), with cheap rejections. */
+
+namespace wireskin::network {
+
+/* Fails with patch_folded or patch_without_plane. */
+Status check_border(const Border& border);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/border_check.h ======== */
+
+/* ======== begin src/network/linking.h ======== */
+/* Whether any two-sided surface without crossings can have this border with these normals. */
+/* */
+/* Pushed along its normals such a surface does not meet its border, so the border and its copy */
+/* pushed along them have the linking number 0: that is the writhe of the loops together, the sum of */
+/* solid angles over pairs of edges, and the turns that normals make about their curves. The border */
+/* of a Moebius band has another number, and so has a knot with normals that stay on one side. */
+/* In: a border. Out: the number, 0 where it is not defined (normals not known, curves that turn */
+/* back) or the sums are not near a whole number. O(n^2). Sources: G. Calugareanu, "L'integrale de */
+/* Gauss et l'analyse des noeuds tridimensionnels", 1959; J. H. White, "Self-Linking and the Gauss */
+/* Integral in Higher Dimensions", 1969; T. F. Banchoff, "Self Linking Numbers of Space Polygons", */
+/* 1976. */
+
+namespace wireskin::network {
+
+Status linking_number(const Border& border, int32_t* number);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/linking.h ======== */
+
+/* ======== begin src/network/patch_mesh.h ======== */
+/* From cycles to one mesh: every cycle is projected to its plane, triangulated there, and the */
+/* patches are joined along the curves. */
+/* */
+/* In: the vertices on the curves and the cycles. Out: triangles over the curve vertices (first) and */
+/* the free vertices, each triangle with its shape in its patch's plane, the metric of the paper's */
+/* method. The plane goes through the mean of the border's positions across the mean of its normals. */
+/* A patch whose border has no plane, or folds in it, is meshed in space instead */
+/* (network/patch_in_space.h), curves inside it too (mesh/inlay.h); its triangles have their shapes */
+/* there. */
+/* No vertex is ever added on a curve, so patches conform; a chord between curve vertices that would */
+/* stand in two patches, or beside a curve, is split by a free vertex. O(n log n). Source: T. Stanko */
+/* et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3. */
+
+namespace wireskin::network {
+
+/* How a patch got its triangles. */
+enum class PatchWay : uint8_t { plane, minimal_area };
+
+struct PatchMesh {
+  uint32_t vertices = 0;
+  uint32_t curve_vertices = 0;
+  Array<uint32_t> triangle;          /* three vertices each */
+  Array<uint32_t> patch;             /* of each triangle */
+  Array<mesh::TriangleShape> shape;  /* of each triangle, in its patch's plane or in space */
+  Array<PatchWay> way;               /* of each patch */
+  Array<Status> status;              /* of each patch: why it has no triangles */
+  Array<Vec3> start;                 /* of each vertex: on its curve, in its plane or in space */
+  Array<uint8_t> placed;             /* of each vertex: free, and where it starts in space matters */
+
+  explicit PatchMesh(Context& context)
+      : triangle(context),
+        patch(context),
+        shape(context),
+        way(context),
+        status(context),
+        start(context),
+        placed(context) {}
+};
+
+/* `least_facing`: a plane is taken only where the mean cosine between its normal and those of the */
+/* border is at least this; -1 takes every plane that shows the border without folds. Fails, naming */
+/* the patch and a curve of it, with patch_without_plane where the border runs clockwise, with */
+/* patch_folded where it crosses itself or encloses nothing in space either, where its normals ask */
+/* for a one-sided surface, or curves inside it cross. With `partial` such patches are left without */
+/* triangles, their vertices maybe too; it fails only where no patch can be made. `faults`: of each */
+/* segment why the patches at it are not to be made, as from find_patches; may be empty. */
+Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
+                    bool partial, PatchMesh* mesh, Span<const Status> faults = {});
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_mesh.h ======== */
+
+/* ======== begin src/network/crease.h ======== */
+/* Creases: the mesh of the patches cut open along the sharp curves for the smoothing, and put */
+/* together again. */
+/* */
+/* In: the network with the normals on both sides of its curves, and the mesh of its patches. Out: a */
+/* mesh in which sharp curves are open borders, each copy of a vertex with the normal of its own */
+/* sector: the mean of the sides of the sharp curves that bound it and of the curves inside it. */
+/* Where none of these is known the copy is bare. Held vertices do not move, so copies stay */
+/* together. O(triangles). */
+
+namespace wireskin::network {
+
+struct CreasedMesh {
+  mesh::Cut cut;
+  Array<Vec3> position, normal;
+  Array<uint8_t> held, bare, on_border;
+
+  explicit CreasedMesh(Context& context)
+      : cut(context),
+        position(context),
+        normal(context),
+        held(context),
+        bare(context),
+        on_border(context) {}
+};
+
+/* Whether any curve is sharp; if not, nothing below is needed. */
+inline bool has_creases(const CurveVertices& vertices) {
+  return !vertices.side_start.empty();
+}
+
+/* `sharp`: of each curve; `position`: of each vertex of the mesh. Fails with inconsistent_normals, */
+/* naming node and curve, where the normals of one sector oppose each other. */
+Status cut_along_creases(const Network& network, const CurveVertices& vertices,
+                         Span<const uint8_t> sharp, Span<const Node> nodes, const PatchMesh& mesh,
+                         Span<const Vec3> position, CreasedMesh* creased);
+
+/* Brings positions and triangles back to the vertices of the uncut mesh. */
+void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle);
+
+/* Of each vertex of the uncut mesh. */
+struct VertexMeasures {
+  Span<Vec3> normal;
+  Span<double> mean_curvature;
+  Span<Vec3> constraint_normal;  /* zero where free, or not known */
+  /* Over the sides, and over the edges of the curves that are no creases. */
+  mesh::AngleStatistics* normal_deviation;
+  mesh::AngleStatistics* dihedral;
+};
+
+/* At creases all of these are those of the sides, each measured by itself, in the mean. */
+/* `patch`: of each triangle. */
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
+                     Span<const uint32_t> patch, const VertexMeasures& measures);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/crease.h ======== */
+
+/* ======== begin src/network/plane.h ======== */
+/* The plane of a patch: through the mean position of its border, across the mean normal; across the */
+/* vector area of the border where it has no normals. */
+/* */
+/* In: the loops of a border. Out: plane coordinates, so that a border that runs */
+/* counter-clockwise seen from the tip of the normal does so in the plane. The first axis points */
+/* from the mean to the first vertex, so that a rotated network gives rotated patches. O(border). */
+/* Source: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, section 3.3. */
+
+namespace wireskin::network {
+
+struct Plane {
+  Vec3 origin, u, v, normal;
+
+  Vec2 project(const Vec3& p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
+  Vec3 lift(Vec2 p) const { return origin + p.x * u + p.y * v; }
+  double height(const Vec3& p) const { return dot(p - origin, normal); }
+};
+
+/* Fails with patch_without_plane (no place) where the normals cancel out. */
+Status fit_plane(const Border& border, Plane* plane);
+
+/* The plane of that normal through the mean of the border. */
+Plane plane_across(const Border& border, const Vec3& normal);
+
+/* Rounds plane coordinates, and a spacing, to a grid of 2^-32 of the polygon's extent. Which */
+/* triangles a patch gets then does not hang on the last bits of its border, which depend on the */
+/* direction in which curves were given. */
+void round_to_grid(Span<Vec2> polygon, double* spacing);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/plane.h ======== */
+
+/* ======== begin src/network/enclosure.h ======== */
+/* Which patch encloses each connected component of the curves: a curve inside a patch without being */
+/* connected to its border is a second loop of the border, or holds the patch's inside. */
+/* */
+/* In: network and curve vertices, every cycle a patch of its own. A component is enclosed where all */
+/* its vertices project into the patch's border, no farther from its plane than the border itself */
+/* and a share of its width (a twentieth; half of it for pieces that bound nothing themselves and */
+/* face the way the patch does). Of several such patches the one counts that is least in the sum of */
+/* its size and four times how far the component lies beyond the border's heights. Cost: components */
+/* are sorted by place, so a patch looks only at those in its own range of x; all vertices where a */
+/* piece's first vertex is inside. */
+
+namespace wireskin::network {
+
+struct Components {
+  Array<uint32_t> of_vertex;  /* of each curve vertex; a node without segments is one of its own */
+  Lists members;              /* the vertices of each component */
+  Array<uint8_t> bounds;      /* of each component: has a cycle that bounds a patch */
+
+  explicit Components(Context& context) : of_vertex(context), members(context), bounds(context) {}
+};
+
+Status find_components(const Network& network, const CurveVertices& vertices,
+                       Components* components);
+
+struct Enclosing {
+  uint32_t patch = k_none;
+  double score = 0.0;
+  Vec3 normal;          /* of the patch's plane */
+  double facing = 1.0;  /* the mean cosine with the component's normals; 1 where none is known */
+};
+
+/* Of each component. */
+Status find_enclosing(const Network& network, const CurveVertices& vertices,
+                      const Components& components, Array<Enclosing>* enclosing);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/enclosure.h ======== */
+
+/* ======== begin src/network/group.h ======== */
+/* Which loops bound a patch together, and which pieces lie inside which patch: the connected */
+/* components of a network brought together. */
+/* */
+/* In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same */
+/* network with patches of several loops and with inner segments and points. Three rules, in this */
+/* order; where none applies every cycle stays a patch. */
+/* 1. A component enclosed by a patch in its plane (network/enclosure.h) joins it by the cycle that */
+/* runs clockwise there and faces the same way. A ring of boundary curves becomes a hole; what */
+/* bounds nothing (dangling curves, points) holds the patch's inside. */
+/* 2. Other loops face each other: where the conormals, which point into the patch along the */
+/* surface, lead from either loop to the other, and a band between the two has less area than */
+/* closing both alone would take: the spherical cap that leaves a loop along its conormals, 2 A / (1 */
+/* + m) for a circle of area A and the mean cosine m between its normals and its axis, times (2 / (1 */
+/* + m))^2. Nearest pairs join first, never two loops of the same component. */
+/* 3. What is left and lies on the guessed surface of a patch (network/nearest_patch.h) joins it as */
+/* by rule 1: pieces that bound nothing, loops that run clockwise, rings. A piece also says which */
+/* side of a ring has the surface. O(n log n) and the pairs that are near each other. */
+
+namespace wireskin::network {
+
+/* Patches of several loops that might as well have been others: how many, and the first of them. */
+struct Ambiguity {
+  uint32_t patches = 0;
+  uint32_t first = k_none;
+};
+
+/* `ambiguity` may be null. Fails with open_network for pieces that lie in no patch, and for a */
+/* boundary curve none of whose sides is the inside by its normals. */
+Status group_patches(const CurveVertices& vertices, Network* network,
+                     Ambiguity* ambiguity = nullptr);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/group.h ======== */
+
+/* ======== begin src/network/nearest_patch.h ======== */
+/* On which patch's surface a piece of the network lies that no patch encloses in a plane: the */
+/* surface is guessed from the border alone, coarsely (network/patch_in_space.h). */
+/* */
+/* In: borders, then pieces as vertices. Out: for each piece the patch that it is nearest to, if it */
+/* lies beside that surface nowhere: each vertex projects to its inside, no farther off than a share */
+/* of the root of its area, and normals agree in the mean. O(patches + pieces times patches whose */
+/* boxes they meet). */
+
+namespace wireskin::network {
+
+/* A guess of one patch; `number` is twice the patch's, or one more for the other side of a ring. */
+struct PatchGuess {
+  uint32_t number;
+  uint32_t first_vertex, first_triangle, triangles;
+  uint32_t rim;  /* vertices on the border */
+  double size;   /* the square root of the area */
+  Vec3 low, high;
+};
+
+struct PatchGuesses {
+  Array<PatchGuess> patch;
+  Array<Vec3> position;
+  Array<uint32_t> triangle;  /* within the patch's own vertices */
+
+  explicit PatchGuesses(Context& context) : patch(context), position(context), triangle(context) {}
+};
+
+/* A border without a surface in space adds nothing. */
+Status add_guess(const Border& border, uint32_t number, PatchGuesses* guesses);
+
+struct Piece {
+  Span<const uint32_t> vertex;
+  double farthest;      /* as a share of the patch's size */
+  double least_facing;  /* mean cosine, where normals are known */
+  uint32_t but;         /* patches 2 p and 2 p + 1 do not count, p being this; or k_none */
+};
+
+/* The place of the nearest patch in guesses->patch, k_none where there is none. */
+uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
+                       const PatchGuesses& guesses);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/nearest_patch.h ======== */
+
+/* ======== begin src/network/kept_parts.h ======== */
+/* The kept samples of a network, one connected component after the other: curves that share a node */
+/* are of one component, so that each can be looked at by itself. */
+/* */
+/* In: kept samples. Out: the same in an order of components (by their first curves), each a view */
+/* like that of the whole network but with nodes counted within it. Positions and normals are not */
+/* copied: what is written to a part is written to the network. O(samples). */
+
+namespace wireskin::network {
+
+class KeptParts {
+ public:
+  explicit KeptParts(Context& context)
+      : first_curve_(context),
+        first_kept_(context),
+        start_(context),
+        kept_(context),
+        kept_start_(context),
+        node_(context),
+        closed_(context) {}
+
+  /* `samples` must outlive the parts. */
+  Status split(const KeptSamples& samples);
+
+  uint32_t count() const { return static_cast<uint32_t>(first_curve_.size() - 1); }
+  KeptSamples part(uint32_t p) const;
+
+ private:
+  Status sort_curves(Array<uint32_t>* order);
+  Status copy_curves(Span<const uint32_t> order);
+  Status number_nodes();
+
+  KeptSamples samples_ = {};
+  Array<uint32_t> first_curve_, first_kept_;  /* of each part, in the order of parts */
+  Array<uint32_t> start_, kept_;
+  Array<uint32_t> kept_start_;  /* counted from the part's first; one more for each part */
+  Array<uint32_t> node_;
+  Array<uint8_t> closed_;
+};
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/kept_parts.h ======== */
+
+/* ======== begin src/network/patch_in_space.h ======== */
+/* The mesh of a patch that no plane shows: little area inside its loops (mesh/loop_mesh.h), and */
+/* where its normals agree too little with the axis of the border for a flat start, raised from it */
+/* along them: a band between two loops at once (mesh/band.h), else mesh/dome.h. */
+/* */
+/* In: a border that passes no vertex twice, the wished spacing. Out: points, those of the border */
+/* first, and triangles. A dome begins on a mesh that is coarser inside, so that most of its systems */
+/* are small; one last is solved at the wished spacing. A mesh that raising would make needles of */
+/* stays as it was. */
+
+namespace wireskin::network {
+
+struct SpaceMesh {
+  Array<Vec3> position;
+  Array<uint32_t> triangle;
+  bool raised = false;  /* from little area */
+  bool band = false;    /* by mesh/band.h */
+
+  explicit SpaceMesh(Context& context) : position(context), triangle(context) {}
+};
+
+/* Failures are those of mesh/loop_mesh.h. */
+Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh);
+
+/* Raises a dome again and refines it where that stretched it, with more held than the border. */
+Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
+                   SpaceMesh* mesh);
+
+/* Whether some triangle is so thin that the systems to come would be singular. */
+bool has_needles(const SpaceMesh& mesh);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_in_space.h ======== */
+
+/* ======== begin src/network/rotation.h ======== */
+/* The rotation system of a network: the cyclic order of the segments round every node, and with it */
+/* the way on for who comes to a node with a patch on the left. */
+/* */
+/* In: the segments with their nodes and curves. Out: of each half-segment the next one of its cycle */
+/* (clockwise of where it comes from). The order is that of the tangents, seen from the tip of the */
+/* node's normal; where these do not tell curves apart, that of secants of growing length. On a */
+/* border all other curves leave to one side of it, the same along the whole border: where tangents */
+/* deny that, as splines do where a polygon turns sharply or another curve meets the border at a */
+/* small angle, secants and chords are asked, too, and the clearer nodes of the border decide on */
+/* the side. O(samples + segments log segments). */
+
+namespace wireskin::network {
+
+/* Half-segments are numbered as in network.h. */
+struct Graph {
+  const curves::Curves& curves;
+  Span<const Node> nodes;
+  Span<const Segment> segments;
+
+  const Segment& segment_of(uint32_t h) const { return segments[h / 2]; }
+  uint32_t from(uint32_t h) const { return h % 2 == 0 ? segment_of(h).from : segment_of(h).to; }
+  curves::Curve curve_of(uint32_t h) const { return curves[segment_of(h).curve]; }
+  /* With the normals on the left of the half-segment. */
+  curves::Curve side_of(uint32_t h) const {
+    return h % 2 == 0 ? curve_of(h) : seen_from_right(curves, segment_of(h).curve);
+  }
+};
+
+/* `next` has two elements for each segment. Fails with tangent_normal or inconsistent_normals at */
+/* nodes whose segments have no order; if `faults` is given, these segments get that status there, */
+/* and any order. */
+Status link_half_segments(const Graph& graph, Span<uint32_t> next, Array<Status>* faults);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/rotation.h ======== */
+
+/* ======== begin src/network/node_normals.h ======== */
+/* Normals for the nodes of sharp curves where not all sides, or none, are known: needed only to put */
+/* the curves round a node in order. */
+/* */
+/* In: curves, nodes. Out: a unit normal at every node of a crease. The axis of a node is across the */
+/* plane that fits best the tips of the unit tangents that leave it: seen along it, the edges of a */
+/* convex corner and the curves of a smooth point stand in their order. Its sense is that of the */
+/* normals known there; or else it follows from a neighbour along a curve; where no node of a */
+/* component has any, the axes point away from its middle. Fails with missing_normals, naming the */
+/* node, where that decides nothing. O(knots + nodes^2 in the worst case of one long chain, else */
+/* near linear). */
+
+namespace wireskin::network {
+
+Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/node_normals.h ======== */
+
+/* ======== begin src/network/partial.h ======== */
+/* A network without some of its patches, for callers who want the others all the same. */
+/* */
+/* In: nodes, network, and of each patch whether it could be made. Out: both without the patches */
+/* that could not, without the segments and nodes that bounded or held nothing else; a segment with */
+/* a patch left on one side only is boundary. A node at which patches are left that share no curve */
+/* there becomes several, at the same point. O(segments). */
+
+namespace wireskin::network {
+
+/* `original`: of each patch that is left, its number before. */
+Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
+                    Array<uint32_t>* original);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/partial.h ======== */
+
 /* ======== begin src/planar/polygon_mesh.h ======== */
 /* A triangle mesh of a region of the plane whose border and inner curves are kept bit for bit: */
 /* constrained Delaunay, with interior points at the wished spacing, graded to that of the curves. */
@@ -5643,23 +6400,6 @@ Status triangulate_side(SideTriangles* side);
 
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/cavity_side.h ======== */
-
-/* ======== begin src/planar/insertion_order.h ======== */
-/* The order in which points are best added to a triangulation: in rounds of growing size, each */
-/* along a Hilbert curve, so that every walk is short and no input makes incremental insertion */
-/* slow. */
-/* */
-/* In: points with finite coordinates. Out: a permutation of their indices, the same in every run. */
-/* Cost: O(n), 32 bytes a point of scratch. */
-/* Source: N. Amenta, S. Choi, G. Rote, "Incremental Constructions con BRIO", 2003; D. Hilbert, */
-/* "Ueber die stetige Abbildung einer Linie auf ein Flaechenstueck", 1891. */
-
-namespace wireskin::planar {
-
-Status insertion_order(Span<const Vec2> points, Array<uint32_t>* order);
-
-}  /* namespace wireskin::planar */
-/* ======== end src/planar/insertion_order.h ======== */
 
 /* ======== begin src/planar/lattice.h ======== */
 /* The points of a hexagonal lattice inside a region that keep clear of its curves: where those are */
@@ -5771,6 +6511,65 @@ Status find_arcs(Context& context, const GivenCurves& curves, uint32_t least_edg
 }  /* namespace wireskin::smooth */
 /* ======== end src/smooth/arcs.h ======== */
 
+/* ======== begin src/smooth/laplacian_pairs.h ======== */
+/* Approximate inverses of fairing systems that need the factors of Laplacians alone, for conjugate */
+/* gradients where the memory cap leaves no room for the factor of the system itself. */
+/* */
+/* A fourth-order matrix L M^-1 L + P, with P diagonal, is near (S - L) M^-1 (S - L) with S M^-1 S = */
+/* P. For the unknowns (u, h) of minimum variation (displace.h) the two blocks are taken one by one: */
+/* u with the springs as P, h with 4 M as P and the smoothing length before its Laplacian; both */
+/* factors together are a seventh of the system's. What couples u and h is left to the iteration, */
+/* and so is the cut along the curves. Invariant: symmetric and positive definite. Cost: two */
+/* factorisations, then four solves of size n an application. */
+/* Source: K.-A. Mardal, R. Winther, "Preconditioning Discretizations of Systems of Partial */
+/* Differential Equations", 2011. */
+
+namespace wireskin::smooth {
+
+/* The lower half of diag(shift) - scale L among the unknowns; no shift: zero. */
+Status shifted_laplacian(const sparse::Csc& laplacian, Span<const uint32_t> unknown,
+                         uint32_t unknowns, double scale, Span<const double> shift,
+                         sparse::Csc* part);
+
+struct FairingBlocks {
+  const sparse::Csc& laplacian;                  /* of the mesh with its curves closed */
+  Span<const double> area;                       /* of each vertex */
+  Span<const double> spring;                     /* of each vertex, or empty */
+  Span<const uint32_t> displacement, curvature;  /* numbers of the unknowns, k_none where held */
+  double smoothing_length;
+  Places places;
+};
+
+class LaplacianPairs {
+ public:
+  explicit LaplacianPairs(Context& context) : u_(context), h_(context) {}
+
+  /* A memory cap that does not even allow this is a status. */
+  Status build(const FairingBlocks& blocks);
+  sparse::LinearOperator linear_operator() { return {&apply, this}; }
+
+ private:
+  /* One block: a factor, and where its unknowns stand in the system. */
+  struct Block {
+    sparse::Cholesky factor;
+    Array<uint32_t> unknown;
+    Array<double> area;
+    Array<double> value;
+
+    explicit Block(Context& c) : factor(c), unknown(c), area(c), value(c) {}
+  };
+
+  static Status factor_block(const FairingBlocks& blocks, Span<const uint32_t> numbers,
+                             double scale, Span<const double> shift, Block* block);
+  static Status apply_block(Span<const double> x, Span<double> y, Block* block);
+  static Status apply(void* self, Span<const double> x, Span<double> y);
+
+  Block u_, h_;
+};
+
+}  /* namespace wireskin::smooth */
+/* ======== end src/smooth/laplacian_pairs.h ======== */
+
 /* ======== begin src/smooth/displace.h ======== */
 /* One step of minimum variation: every free vertex moves along its normal by u so that the mean */
 /* curvature of the surface is as smooth as it can be while the surface meets the normals given on */
@@ -5813,36 +6612,51 @@ struct DisplaceInput {
 };
 
 /* Solves one step after the other. The systems of later steps differ little from the first, so its */
-/* factor preconditions conjugate gradients for them; only where these are slow is there a new one. */
+/* factor preconditions conjugate gradients for them, from the last step's h; only where these are */
+/* slow is there a new one. Where the memory cap leaves no room for it, the preconditioner is that */
+/* of laplacian_pairs.h, with some hundred iterations. */
 class MinimumVariation {
  public:
   explicit MinimumVariation(Context& context)
-      : context_(context), factor_(context), displacement_(context), curvature_(context) {}
+      : context_(context),
+        factor_(context),
+        pairs_(context),
+        displacement_(context),
+        curvature_(context),
+        start_(context) {}
 
   /* `normal`: out, the directions; `step`: out, u of every vertex, zero where held. */
   Status solve(const DisplaceInput& input, Span<Vec3> normal, Span<double> step);
 
-  double residual() const { return residual_; }  /* of the last solve, relative */
+  double residual() const { return residual_; }  /* of the last solve, |b - A x| / |b| */
   uint32_t factorisations() const { return factorisations_; }
-  uint32_t iterations() const { return iterations_; }  /* of conjugate gradients, all steps together */
+  /* Of conjugate gradients after a factor, all steps together. */
+  uint32_t iterations() const { return iterations_; }
 
  private:
+  struct WeightedRows;
+
   Status number_unknowns(Span<const uint8_t> held);
   Status make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
                    Span<const double> split_area, Span<const uint32_t> origin,
                    const sparse::Csc& laplacian, sparse::Csc* rows) const;
-  Status solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
-                             Span<const double> rhs, Span<double> solution, bool* solved);
+  Status iterate(const WeightedRows& system, const sparse::LinearOperator& preconditioner,
+                 uint32_t most, Span<double> solution, uint32_t* iterations);
+  Status solve_by_old_factor(const WeightedRows& system, Span<double> solution, bool* solved);
   Status order_unknowns(const DisplaceInput& input, const sparse::Csc& matrix,
                         Array<uint32_t>* order) const;
-  Status solve_by_new_factor(const DisplaceInput& input, const sparse::Csc& rows,
-                             Span<const double> weight, Span<const double> rhs,
+  Status solve_by_new_factor(const DisplaceInput& input, const WeightedRows& system,
                              Span<double> solution);
+  Status solve_by_pairs(const DisplaceInput& input, const sparse::Csc& laplacian,
+                        Span<const double> area, const WeightedRows& system, Span<double> solution);
 
   Context& context_;
   sparse::Cholesky factor_;
+  LaplacianPairs pairs_;  /* in its place where the memory cap forbids it */
+  bool iterative_ = false;
   Array<uint32_t> displacement_;  /* number of each vertex's unknown u, k_none where held */
   Array<uint32_t> curvature_;     /* and of its unknown h, next to it */
+  Array<double> start_;           /* the last solution with u = 0, or empty */
   uint32_t unknowns_ = 0;
   uint32_t factorisations_ = 0;
   uint32_t iterations_ = 0;
@@ -6033,9 +6847,11 @@ struct Start {
   /* Of each vertex: roughly where it will stand (for the order of elimination), and exactly where */
   /* it starts if it is placed. */
   Span<const Vec3> position = {};
-  Span<const uint8_t> placed = {};              /* free vertices; empty: none */
-  Span<const uint32_t> inner_edge = {};         /* of curves inside patches, two vertices each */
-  Array<mesh::TriangleShape>* spent = nullptr;  /* what `shape` views, if it may be given back */
+  Span<const uint8_t> placed = {};       /* free vertices; empty: none */
+  Span<const uint32_t> inner_edge = {};  /* of curves inside patches, two vertices each */
+  /* What `shape` and `position` view, if it may be given back. */
+  Array<mesh::TriangleShape>* spent = nullptr;
+  Array<Vec3>* spent_places = nullptr;
 };
 
 /* Neighbours, the check of the mesh, and the counts that follow from them. */
@@ -6095,270 +6911,80 @@ Status verify_triangles(Context& context, const Surface& surface);
 }  /* namespace wireskin */
 /* ======== end src/surface/verify.h ======== */
 
-/* ======== begin src/mesh/mesh.cpp ======== */
-namespace wireskin::mesh {
+/* ======== begin src/surface/flow_measure.h ======== */
+/* How far the samples that the caller gave lie from the curves of a surface made of a flow. */
+/* */
+/* In: the samples as given, before noise was taken out, and the finished surface. Out: the greatest */
+/* and the root mean square distance, in the counts of the surface. A sample is compared with the */
+/* edges of its own arc next to it, so that other curves nearby do not count; isolated points are */
+/* vertices. O(samples). */
 
-static Status fail_triangle(const char* sentence, size_t triangle) {
-  Place place;
-  place.triangle = static_cast<uint32_t>(triangle);
-  return fail(Code::bad_mesh, sentence, place);
+namespace wireskin {
+
+/* `vertex_of`: of each sample of the flow. */
+Status measure_given(const flow::Flow& flow, Span<const Vec3> given, Span<const uint32_t> vertex_of,
+                     Surface* surface);
+
+}  /* namespace wireskin */
+/* ======== end src/surface/flow_measure.h ======== */
+
+/* ======== begin src/api/input.cpp ======== */
+namespace wireskin::api {
+
+static bool has_nan(const Vec3& a) {
+  return a.x != a.x || a.y != a.y || a.z != a.z;
+}
+static bool finite(const Vec3& a) {
+  return a.x - a.x == 0.0 && a.y - a.y == 0.0 && a.z - a.z == 0.0;
 }
 
-static Status fail_vertex(const char* sentence, size_t vertex) {
-  Place place;
-  place.vertex = static_cast<uint32_t>(vertex);
-  return fail(Code::bad_mesh, sentence, place);
+double greatest_component(const Vec3& a) {
+  const double x = std::fabs(a.x), y = std::fabs(a.y), z = std::fabs(a.z);
+  const double xy = x > y ? x : y;
+  return xy > z ? xy : z;
 }
 
-static Status check_indices(uint32_t vertices, Span<const uint32_t> triangles) {
-  for (size_t t = 0; t < triangles.size() / 3; ++t) {
-    const uint32_t a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
-    if (a >= vertices || b >= vertices || c >= vertices) {
-      Place place;
-      place.triangle = static_cast<uint32_t>(t);
-      return fail(Code::index_out_of_range, "the triangle names a vertex that does not exist",
-                  place);
-    }
-    if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
-  }
+static Status check_finite(const Vec3& a, const char* not_a_number, const char* infinite,
+                           const Place& place) {
+  if (has_nan(a)) return fail(Code::not_a_number, not_a_number, place);
+  if (!finite(a)) return fail(Code::infinite, infinite, place);
   return {};
 }
 
-Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
-                    Array<uint32_t>* corner) {
-  TRY(start->assign(size_t{vertices} + 1, 0));
-  TRY(corner->resize(triangles.size()));
-  for (uint32_t v : triangles) ++(*start)[v];
-  starts_from_counts(start->span());
-  /* Filling moves each start to the next vertex's; shift them back afterwards. */
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h);
-  }
-  for (size_t v = vertices; v > 0; --v) (*start)[v] = (*start)[v - 1];
-  (*start)[0] = 0;
+Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position) {
+  *position = rows[i];
+  return check_finite(*position, "the position is not a number", "the position is infinite", place);
+}
+
+Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal) {
+  const Vec3 given = rows[i];
+  TRY(check_finite(given, "the normal is not a number", "the normal is infinite", place));
+  const double greatest = greatest_component(given);
+  if (greatest == 0.0) return fail(Code::zero_normal, "the normal has zero length", place);
+  /* Near one first, or the squares of very long and very short normals overflow and underflow. */
+  *normal = unit(Scale(-binary_exponent(greatest))(given));
   return {};
 }
 
-Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* twins) {
-  if (triangles.size() >= k_none) return fail(Code::too_large, "too many triangles");
-  TRY(check_indices(vertices, triangles));
-  Context& context = twins->context();
-  Array<uint32_t> start(context), corner(context), leaving_to(context);
-  TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(leaving_to.assign(vertices, k_none));  /* of each vertex: the half-edge to it from this one */
-  TRY(twins->resize(triangles.size()));
-  const auto head = [&](uint32_t h) { return triangles[next_half_edge(h)]; };
-  for (uint32_t v = 0; v < vertices; ++v) {
-    const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
-    for (uint32_t h : leaving) {
-      if (leaving_to[head(h)] != k_none) {
-        return fail_triangle("an edge of the triangle belongs to another one in the same direction",
-                             h / 3);
-      }
-      leaving_to[head(h)] = h;
-    }
-    /* Every half-edge arrives at one vertex, in the triangle of one that leaves there. */
-    for (uint32_t h : leaving) {
-      const uint32_t arriving = previous_half_edge(h);
-      (*twins)[arriving] = leaving_to[triangles[arriving]];
-    }
-    for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
-    if (v % 65536 == 65535) TRY(context.checkpoint());
+Status find_scale(Span<const Vec3> points, int* exponent) {
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& p : points) {
+    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
+    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
   }
+  const Vec3 extent = high - low;
+  if (!finite(extent)) {
+    return fail(Code::infinite, "the positions span more than a double can hold");
+  }
+  /* Points that are all one place have no extent; how far out they lie serves as well. */
+  double greatest = greatest_component(extent);
+  if (greatest == 0.0) greatest = greatest_component(points[0]);
+  *exponent = greatest > 0.0 ? binary_exponent(greatest) : 0;
   return {};
 }
 
-/* Joins the vertices of each triangle; every tree's root is its least vertex. */
-static uint32_t root_of(Span<uint32_t> parent, uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-static void find_components(Span<const uint32_t> triangles, Topology* topology) {
-  const Span<uint32_t> parent = topology->component.span();
-  for (uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    for (size_t k = 1; k < 3; ++k) {
-      const uint32_t a = root_of(parent, triangles[t]), b = root_of(parent, triangles[t + k]);
-      (a < b ? parent[b] : parent[a]) = a < b ? a : b;
-    }
-  }
-  /* Roots come before their members, so one pass replaces parents by component numbers. */
-  for (uint32_t v = 0; v < parent.size(); ++v) {
-    parent[v] = parent[v] == v ? topology->components++ : parent[parent[v]];
-  }
-}
-
-/* Walks round every vertex from one of its corners (at a border vertex: from the border) and */
-/* compares the number of triangles met with those it has. */
-static Status check_fans(Span<const uint32_t> twins, Span<const uint32_t> start,
-                         Span<const uint32_t> corner, Span<uint8_t> on_border) {
-  for (size_t v = 0; v + 1 < start.size(); ++v) {
-    const uint32_t count = start[v + 1] - start[v];
-    if (count == 0) return fail_vertex("the vertex belongs to no triangle", v);
-    uint32_t first = corner[start[v]], borders = 0;
-    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
-      if (twins[corner[k]] != k_none) continue;  /* clockwise of this corner the surface ends */
-      first = corner[k];
-      ++borders;
-    }
-    uint32_t met = 0, h = first;
-    do {
-      ++met;
-      h = twins[previous_half_edge(h)];
-    } while (h != k_none && h != first && met <= count);
-    if (borders > 1 || met != count) {
-      return fail_vertex("the triangles round the vertex do not form one fan", v);
-    }
-    on_border[v] = borders == 1;
-  }
-  return {};
-}
-
-/* Follows every border once, marking its half-edges. */
-static Status count_loops(Span<const uint32_t> twins, Context& context, uint32_t* loops) {
-  Array<uint8_t> seen(context);
-  TRY(seen.assign(twins.size(), 0));
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] != k_none || seen[h]) continue;
-    ++*loops;
-    for (uint32_t g = h; !seen[g];) {
-      seen[g] = 1;
-      g = next_half_edge(g);
-      while (twins[g] != k_none) g = next_half_edge(twins[g]);
-    }
-  }
-  return {};
-}
-
-Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
-                     Topology* topology) {
-  Context& context = topology->on_border.context();
-  Array<uint32_t> start(context), corner(context);
-  TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(topology->on_border.assign(vertices, 0));
-  TRY(topology->component.resize(vertices));
-  TRY(check_fans(twins, start.span(), corner.span(), topology->on_border.span()));
-  find_components(triangles, topology);
-  TRY(count_loops(twins, context, &topology->boundary_loops));
-  for (uint32_t h = 0; h < twins.size(); ++h) topology->edges += twins[h] == k_none || h < twins[h];
-  topology->euler_characteristic = static_cast<int32_t>(int64_t{vertices} - topology->edges +
-                                                        static_cast<int64_t>(triangles.size() / 3));
-  return {};
-}
-
-Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles) {
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const Vec3& a = positions[triangles[t]];
-    const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
-    if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
-  }
-  return {};
-}
-
-/* The smallest angle of a triangle has the largest cosine, so one arctangent at the end is enough. */
-double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
-  double greatest_cosine = -1.0;
-  double angle = 0.0;
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t corner = static_cast<uint32_t>(h);
-    const Vec3& p = positions[triangles[h]];
-    const Vec3 a = positions[triangles[next_half_edge(corner)]] - p;
-    const Vec3 b = positions[triangles[previous_half_edge(corner)]] - p;
-    const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
-    if (!(cosine > greatest_cosine)) continue;
-    greatest_cosine = cosine;
-    angle = angle_between(a, b);
-  }
-  return angle * (180.0 / k_pi);
-}
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/mesh.cpp ======== */
-
-/* ======== begin src/mesh/measure.cpp ======== */
-namespace wireskin::mesh {
-
-static constexpr double k_degrees = 180.0 / k_pi;
-
-namespace {
-
-/* A mean and a maximum under way. */
-struct AngleSum {
-  double sum = 0.0;
-  double greatest = 0.0;
-  size_t count = 0;
-
-  void add(double angle) {
-    sum += angle;
-    ++count;
-    if (angle > greatest) greatest = angle;
-  }
-  AngleStatistics statistics() const {
-    if (count == 0) return {};
-    return {k_degrees * (sum / static_cast<double>(count)), k_degrees * greatest};
-  }
-};
-
-}  /* namespace */
-
-Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> triangles,
-                          Span<const uint8_t> on_border, Array<double>* curvature) {
-  Context& context = curvature->context();
-  const size_t n = positions.size();
-  Array<TriangleShape> shapes(context);
-  Array<double> area(context);
-  TRY(curvature->assign(n, 2.0 * k_pi));
-  TRY(area.resize(n));
-  TRY(triangle_shapes(positions, triangles, &shapes));
-  mixed_voronoi_areas(triangles, shapes.span(), area.span());
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    /* The cotangent of the angle is known: arctan2(1, cot) is the angle. */
-    (*curvature)[triangles[h]] -= arc_tangent(1.0, shapes[h / 3].cotangent[h % 3]);
-  }
-  for (size_t v = 0; v < n; ++v) {
-    (*curvature)[v] = !on_border[v] && area[v] > 0.0 ? (*curvature)[v] / area[v] : 0.0;
-  }
-  return fill_border(context, triangles, on_border, curvature->span());
-}
-
-AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
-  AngleSum sum;
-  for (size_t v = 0; v < normals.size(); ++v) {
-    if (dot(given[v], given[v]) > 0.0) sum.add(angle_between(normals[v], given[v]));
-  }
-  return sum.statistics();
-}
-
-Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
-                       Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
-                       AngleStatistics* dihedral) {
-  /* Edges of curves have both ends on curves, and so have their triangles: the others are left out. */
-  Array<uint32_t> twins(context), corner(context), own_patch(context);
-  for (size_t t = 0; 3 * t < triangles.size(); ++t) {
-    const uint32_t* v = &triangles[3 * t];
-    if (on_curve[v[0]] + on_curve[v[1]] + on_curve[v[2]] < 2) continue;
-    for (size_t k = 0; k < 3; ++k) TRY(corner.push(v[k]));
-    TRY(own_patch.push(patch[t]));
-  }
-  TRY(find_twins(static_cast<uint32_t>(positions.size()), corner.span(), &twins));
-  const auto face = [&](uint32_t h) {
-    const uint32_t* v = &corner[h / 3 * 3];
-    return cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
-  };
-  AngleSum sum;
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    const uint32_t g = twins[h];
-    if (g == k_none || g < h || (divided && own_patch[h / 3] == own_patch[g / 3])) continue;
-    if (!on_curve[corner[h]] || !on_curve[corner[next_half_edge(h)]]) continue;
-    sum.add(angle_between(face(h), face(g)));
-  }
-  *dihedral = sum.statistics();
-  return {};
-}
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/measure.cpp ======== */
+}  /* namespace wireskin::api */
+/* ======== end src/api/input.cpp ======== */
 
 /* ======== begin src/sparse/csc.cpp ======== */
 namespace wireskin::sparse {
@@ -6610,7 +7236,8 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
   }
   for (uint32_t k = 0; k < n; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = y[size_t{k} * columns + c];
+    const double* from = y + size_t{k} * columns;
+    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
   }
   return {};
 }
@@ -7113,6 +7740,17 @@ static Status apply_weights(WeightSearch* search, const KeptSamples& samples,
   return {};
 }
 
+/* The score is a variance divided by a share of the freedom, so the variance at the weight that */
+/* cross validation would choose cannot be more than the score of any other weight. */
+static Status is_negligible(WeightSearch* search, const SmoothingOptions& options, bool* yes) {
+  *yes = false;
+  if (options.noise != Noise::estimate || !(options.negligible > 0.0)) return {};
+  TRY(try_weight(search, 0));
+  *yes = score(*search, 0, k_positions) <= options.negligible * options.negligible &&
+         score(*search, 0, k_normals) <= options.negligible_normal * options.negligible_normal;
+  return {};
+}
+
 /* Smooths all the samples with one weight. `unknowns`: how many there are. */
 static Status smooth_together(Context& context, const KeptSamples& samples,
                               const SmoothingOptions& options, SmoothingReport* report,
@@ -7126,6 +7764,9 @@ static Status smooth_together(Context& context, const KeptSamples& samples,
   TRY(search.roughness.build(samples, false));
   *unknowns = search.roughness.unknowns();
   if (search.roughness.rows() < k_least_rows) return {};
+  bool negligible = false;
+  TRY(is_negligible(&search, options, &negligible));
+  if (negligible) return {};
   TRY(choose_weights(&search, options, k_positions, report, &variance));
   const double most = k_drowned * search.roughness.spacing();
   if (variance > most * most) {
@@ -7185,6 +7826,330 @@ Status smooth_samples(Context& context, const KeptSamples& samples, const Smooth
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/smoothing.cpp ======== */
+
+/* ======== begin src/api/options.cpp ======== */
+namespace wireskin::api {
+
+static void* allocate_by_malloc(size_t bytes, void*) {
+  return std::malloc(bytes);
+}
+static void release_by_free(void* memory, size_t, void*) {
+  std::free(memory);
+}
+
+Status read_options(const wsk_options* given, wsk_options* options) {
+  wsk_options_init(options, sizeof *options);
+  TRY(read_struct(given, k_options_size,
+                  "the options are not initialised: call wsk_options_init first", options));
+  if (options->method < 0 || options->method >= WSK_METHOD_COUNT) {
+    return fail(Code::bad_argument, "the options name an unknown method");
+  }
+  if (!finite_and_not_negative(options->spacing)) {
+    return fail(Code::bad_argument, "the spacing is negative or not finite");
+  }
+  if (options->smoothing < 0 || options->smoothing >= WSK_SMOOTHING_COUNT) {
+    return fail(Code::bad_argument, "the options name an unknown smoothing");
+  }
+  if (!finite_and_not_negative(options->noise)) {
+    return fail(Code::bad_argument, "the noise is negative or not finite");
+  }
+  if (!finite_and_not_negative(options->soft)) {
+    return fail(Code::bad_argument, "the cutoff length is negative or not finite");
+  }
+  if ((options->allocate == nullptr) != (options->release == nullptr)) {
+    return fail(Code::bad_argument, "the options have an allocate or a release without the other");
+  }
+  return {};
+}
+
+Allocator allocator_of(const wsk_options& options) {
+  if (options.allocate == nullptr) return {allocate_by_malloc, release_by_free, nullptr};
+  return {options.allocate, options.release, options.allocator_user};
+}
+
+Callbacks callbacks_of(const wsk_options& options) {
+  return {options.cancel, options.cancel_user, options.progress,     options.progress_user,
+          options.now,    options.now_user,    options.parallel_for, options.parallel_for_user};
+}
+
+network::SmoothingOptions smoothing_of(const wsk_options& options, const Scale& scale) {
+  const bool automatic =
+      options.smoothing == WSK_SMOOTHING_AUTO ||
+      (options.smoothing == WSK_SMOOTHING_DEFAULT && options.method == WSK_METHOD_FAIR);
+  if (automatic) return {network::Noise::estimate, 0.0};
+  if (options.smoothing == WSK_SMOOTHING_GIVEN && options.noise > 0.0) {
+    return {network::Noise::given, scale(options.noise)};
+  }
+  return {network::Noise::none, 0.0};
+}
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/options.cpp ======== */
+
+/* ======== begin src/mesh/mesh.cpp ======== */
+namespace wireskin::mesh {
+
+static Status fail_triangle(const char* sentence, size_t triangle) {
+  Place place;
+  place.triangle = static_cast<uint32_t>(triangle);
+  return fail(Code::bad_mesh, sentence, place);
+}
+
+static Status fail_vertex(const char* sentence, size_t vertex) {
+  Place place;
+  place.vertex = static_cast<uint32_t>(vertex);
+  return fail(Code::bad_mesh, sentence, place);
+}
+
+static Status check_indices(uint32_t vertices, Span<const uint32_t> triangles) {
+  for (size_t t = 0; t < triangles.size() / 3; ++t) {
+    const uint32_t a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
+    if (a >= vertices || b >= vertices || c >= vertices) {
+      Place place;
+      place.triangle = static_cast<uint32_t>(t);
+      return fail(Code::index_out_of_range, "the triangle names a vertex that does not exist",
+                  place);
+    }
+    if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
+  }
+  return {};
+}
+
+Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
+                    Array<uint32_t>* corner) {
+  TRY(start->assign(size_t{vertices} + 1, 0));
+  TRY(corner->resize(triangles.size()));
+  for (uint32_t v : triangles) ++(*start)[v];
+  starts_from_counts(start->span());
+  /* Filling moves each start to the next vertex's; shift them back afterwards. */
+  for (size_t h = 0; h < triangles.size(); ++h) {
+    (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h);
+  }
+  for (size_t v = vertices; v > 0; --v) (*start)[v] = (*start)[v - 1];
+  (*start)[0] = 0;
+  return {};
+}
+
+Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* twins) {
+  if (triangles.size() >= k_none) return fail(Code::too_large, "too many triangles");
+  TRY(check_indices(vertices, triangles));
+  Context& context = twins->context();
+  Array<uint32_t> start(context), corner(context), leaving_to(context);
+  TRY(find_corners(vertices, triangles, &start, &corner));
+  TRY(leaving_to.assign(vertices, k_none));  /* of each vertex: the half-edge to it from this one */
+  TRY(twins->resize(triangles.size()));
+  const auto head = [&](uint32_t h) { return triangles[next_half_edge(h)]; };
+  for (uint32_t v = 0; v < vertices; ++v) {
+    const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
+    for (uint32_t h : leaving) {
+      if (leaving_to[head(h)] != k_none) {
+        return fail_triangle("an edge of the triangle belongs to another one in the same direction",
+                             h / 3);
+      }
+      leaving_to[head(h)] = h;
+    }
+    /* Every half-edge arrives at one vertex, in the triangle of one that leaves there. */
+    for (uint32_t h : leaving) {
+      const uint32_t arriving = previous_half_edge(h);
+      (*twins)[arriving] = leaving_to[triangles[arriving]];
+    }
+    for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
+    if (v % 65536 == 65535) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+/* Joins the vertices of each triangle; every tree's root is its least vertex. */
+static uint32_t root_of(Span<uint32_t> parent, uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+static void find_components(Span<const uint32_t> triangles, Topology* topology) {
+  const Span<uint32_t> parent = topology->component.span();
+  for (uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    for (size_t k = 1; k < 3; ++k) {
+      const uint32_t a = root_of(parent, triangles[t]), b = root_of(parent, triangles[t + k]);
+      (a < b ? parent[b] : parent[a]) = a < b ? a : b;
+    }
+  }
+  /* Roots come before their members, so one pass replaces parents by component numbers. */
+  for (uint32_t v = 0; v < parent.size(); ++v) {
+    parent[v] = parent[v] == v ? topology->components++ : parent[parent[v]];
+  }
+}
+
+/* Walks round every vertex from one of its corners (at a border vertex: from the border) and */
+/* compares the number of triangles met with those it has. */
+static Status check_fans(Span<const uint32_t> twins, Span<const uint32_t> start,
+                         Span<const uint32_t> corner, Span<uint8_t> on_border) {
+  for (size_t v = 0; v + 1 < start.size(); ++v) {
+    const uint32_t count = start[v + 1] - start[v];
+    if (count == 0) return fail_vertex("the vertex belongs to no triangle", v);
+    uint32_t first = corner[start[v]], borders = 0;
+    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
+      if (twins[corner[k]] != k_none) continue;  /* clockwise of this corner the surface ends */
+      first = corner[k];
+      ++borders;
+    }
+    uint32_t met = 0, h = first;
+    do {
+      ++met;
+      h = twins[previous_half_edge(h)];
+    } while (h != k_none && h != first && met <= count);
+    if (borders > 1 || met != count) {
+      return fail_vertex("the triangles round the vertex do not form one fan", v);
+    }
+    on_border[v] = borders == 1;
+  }
+  return {};
+}
+
+/* Follows every border once, marking its half-edges. */
+static Status count_loops(Span<const uint32_t> twins, Context& context, uint32_t* loops) {
+  Array<uint8_t> seen(context);
+  TRY(seen.assign(twins.size(), 0));
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] != k_none || seen[h]) continue;
+    ++*loops;
+    for (uint32_t g = h; !seen[g];) {
+      seen[g] = 1;
+      g = next_half_edge(g);
+      while (twins[g] != k_none) g = next_half_edge(twins[g]);
+    }
+  }
+  return {};
+}
+
+Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
+                     Topology* topology) {
+  Context& context = topology->on_border.context();
+  Array<uint32_t> start(context), corner(context);
+  TRY(find_corners(vertices, triangles, &start, &corner));
+  TRY(topology->on_border.assign(vertices, 0));
+  TRY(topology->component.resize(vertices));
+  TRY(check_fans(twins, start.span(), corner.span(), topology->on_border.span()));
+  find_components(triangles, topology);
+  TRY(count_loops(twins, context, &topology->boundary_loops));
+  for (uint32_t h = 0; h < twins.size(); ++h) topology->edges += twins[h] == k_none || h < twins[h];
+  topology->euler_characteristic = static_cast<int32_t>(int64_t{vertices} - topology->edges +
+                                                        static_cast<int64_t>(triangles.size() / 3));
+  return {};
+}
+
+Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const Vec3& a = positions[triangles[t]];
+    const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
+    if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
+  }
+  return {};
+}
+
+/* The smallest angle of a triangle has the largest cosine, so one arctangent at the end is enough. */
+double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+  double greatest_cosine = -1.0;
+  double angle = 0.0;
+  for (size_t h = 0; h < triangles.size(); ++h) {
+    const uint32_t corner = static_cast<uint32_t>(h);
+    const Vec3& p = positions[triangles[h]];
+    const Vec3 a = positions[triangles[next_half_edge(corner)]] - p;
+    const Vec3 b = positions[triangles[previous_half_edge(corner)]] - p;
+    const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
+    if (!(cosine > greatest_cosine)) continue;
+    greatest_cosine = cosine;
+    angle = angle_between(a, b);
+  }
+  return angle * (180.0 / k_pi);
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/mesh.cpp ======== */
+
+/* ======== begin src/mesh/measure.cpp ======== */
+namespace wireskin::mesh {
+
+static constexpr double k_degrees = 180.0 / k_pi;
+
+namespace {
+
+/* A mean and a maximum under way. */
+struct AngleSum {
+  double sum = 0.0;
+  double greatest = 0.0;
+  size_t count = 0;
+
+  void add(double angle) {
+    sum += angle;
+    ++count;
+    if (angle > greatest) greatest = angle;
+  }
+  AngleStatistics statistics() const {
+    if (count == 0) return {};
+    return {k_degrees * (sum / static_cast<double>(count)), k_degrees * greatest};
+  }
+};
+
+}  /* namespace */
+
+Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> triangles,
+                          Span<const uint8_t> on_border, Array<double>* curvature) {
+  Context& context = curvature->context();
+  const size_t n = positions.size();
+  Array<TriangleShape> shapes(context);
+  Array<double> area(context);
+  TRY(curvature->assign(n, 2.0 * k_pi));
+  TRY(area.resize(n));
+  TRY(triangle_shapes(positions, triangles, &shapes));
+  mixed_voronoi_areas(triangles, shapes.span(), area.span());
+  for (size_t h = 0; h < triangles.size(); ++h) {
+    /* The cotangent of the angle is known: arctan2(1, cot) is the angle. */
+    (*curvature)[triangles[h]] -= arc_tangent(1.0, shapes[h / 3].cotangent[h % 3]);
+  }
+  for (size_t v = 0; v < n; ++v) {
+    (*curvature)[v] = !on_border[v] && area[v] > 0.0 ? (*curvature)[v] / area[v] : 0.0;
+  }
+  return fill_border(context, triangles, on_border, curvature->span());
+}
+
+AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
+  AngleSum sum;
+  for (size_t v = 0; v < normals.size(); ++v) {
+    if (dot(given[v], given[v]) > 0.0) sum.add(angle_between(normals[v], given[v]));
+  }
+  return sum.statistics();
+}
+
+Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                       Span<const uint32_t> patch, Span<const uint8_t> on_curve, bool divided,
+                       AngleStatistics* dihedral) {
+  /* Edges of curves have both ends on curves, and so have their triangles: the others are left out. */
+  Array<uint32_t> twins(context), corner(context), own_patch(context);
+  for (size_t t = 0; 3 * t < triangles.size(); ++t) {
+    const uint32_t* v = &triangles[3 * t];
+    if (on_curve[v[0]] + on_curve[v[1]] + on_curve[v[2]] < 2) continue;
+    for (size_t k = 0; k < 3; ++k) TRY(corner.push(v[k]));
+    TRY(own_patch.push(patch[t]));
+  }
+  TRY(find_twins(static_cast<uint32_t>(positions.size()), corner.span(), &twins));
+  const auto face = [&](uint32_t h) {
+    const uint32_t* v = &corner[h / 3 * 3];
+    return cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
+  };
+  AngleSum sum;
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    const uint32_t g = twins[h];
+    if (g == k_none || g < h || (divided && own_patch[h / 3] == own_patch[g / 3])) continue;
+    if (!on_curve[corner[h]] || !on_curve[corner[next_half_edge(h)]]) continue;
+    sum.add(angle_between(face(h), face(g)));
+  }
+  *dihedral = sum.statistics();
+  return {};
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/measure.cpp ======== */
 
 /* ======== begin src/mesh/operators.cpp ======== */
 namespace wireskin::mesh {
@@ -7338,6 +8303,7 @@ struct Pair {
   Pair operator-(const Pair& o) const { return {{v[0] - o.v[0], v[1] - o.v[1]}}; }
   Pair operator+(const Pair& o) const { return {{v[0] + o.v[0], v[1] + o.v[1]}}; }
   Pair operator*(double s) const { return {{v[0] * s, v[1] * s}}; }
+  Pair operator*(const Pair& o) const { return {{v[0] * o.v[0], v[1] * o.v[1]}}; }
 };
 #endif
 
@@ -7543,6 +8509,72 @@ WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
       }
     }
   }
+}
+
+/* Terms k and k + 8, k + 16 ... go to the same sum. */
+template <int Columns, int Lanes>
+WIRESKIN_TARGET static WIRESKIN_INLINE void dot_tile(const Dots& d, uint32_t column, uint32_t lane) {
+  constexpr uint32_t k_step = k_lanes<Wide>;
+  constexpr int k_vectors = 8 / k_step;
+  const double* a = d.a + column * d.a_step;
+  const double* b = d.b + lane * d.b_step;
+  Wide sum[Columns][Lanes][k_vectors];
+  WIRESKIN_UNROLL
+  for (int j = 0; j < Columns; ++j) {
+    WIRESKIN_UNROLL
+    for (int l = 0; l < Lanes; ++l) {
+      WIRESKIN_UNROLL
+      for (int v = 0; v < k_vectors; ++v) sum[j][l][v] = Wide{};
+    }
+  }
+  uint32_t k = 0;
+  for (; k + 8 <= d.depth; k += 8) {
+    WIRESKIN_UNROLL
+    for (int v = 0; v < k_vectors; ++v) {
+      const uint32_t at = k + static_cast<uint32_t>(v) * k_step;
+      Wide right[Lanes];
+      WIRESKIN_UNROLL
+      for (int l = 0; l < Lanes; ++l) right[l] = load<Wide>(b + static_cast<size_t>(l) * d.b_step + at);
+      WIRESKIN_UNROLL
+      for (int j = 0; j < Columns; ++j) {
+        const Wide left = load<Wide>(a + static_cast<size_t>(j) * d.a_step + at);
+        WIRESKIN_UNROLL
+        for (int l = 0; l < Lanes; ++l) sum[j][l][v] = sum[j][l][v] + left * right[l];
+      }
+    }
+  }
+  WIRESKIN_UNROLL
+  for (int j = 0; j < Columns; ++j) {
+    WIRESKIN_UNROLL
+    for (int l = 0; l < Lanes; ++l) {
+      double s[8];
+      WIRESKIN_UNROLL
+      for (int v = 0; v < k_vectors; ++v) {
+        store<Wide>(s + static_cast<uint32_t>(v) * k_step, sum[j][l][v]);
+      }
+      for (uint32_t r = k; r < d.depth; ++r) {  /* the last four */
+        s[r - k] += a[static_cast<size_t>(j) * d.a_step + r] * b[static_cast<size_t>(l) * d.b_step + r];
+      }
+      double* c = d.c + (column + static_cast<uint32_t>(j)) + (lane + static_cast<uint32_t>(l)) * d.c_step;
+      *c = *c - (((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])));
+    }
+  }
+}
+
+template <int Lanes>
+WIRESKIN_TARGET static void dot_lanes(const Dots& d, uint32_t lane) {
+  constexpr int k_columns = WIRESKIN_LANES == 2 ? 2 : 4;
+  uint32_t j = 0;
+  for (; j + k_columns <= d.columns; j += k_columns) dot_tile<k_columns, Lanes>(d, j, lane);
+  for (; j < d.columns; ++j) dot_tile<1, Lanes>(d, j, lane);
+}
+
+WIRESKIN_TARGET static void subtract_dots(const Dots& d) {
+  uint32_t lane = 0;
+#if WIRESKIN_LANES == 8
+  for (; lane + 3 <= d.lanes; lane += 3) dot_lanes<3>(d, lane);
+#endif
+  for (; lane < d.lanes; ++lane) dot_lanes<1>(d, lane);
 }
 
 template <typename V, int Columns>
@@ -7798,6 +8830,72 @@ WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
   }
 }
 
+/* Terms k and k + 8, k + 16 ... go to the same sum. */
+template <int Columns, int Lanes>
+WIRESKIN_TARGET static WIRESKIN_INLINE void dot_tile(const Dots& d, uint32_t column, uint32_t lane) {
+  constexpr uint32_t k_step = k_lanes<Wide>;
+  constexpr int k_vectors = 8 / k_step;
+  const double* a = d.a + column * d.a_step;
+  const double* b = d.b + lane * d.b_step;
+  Wide sum[Columns][Lanes][k_vectors];
+  WIRESKIN_UNROLL
+  for (int j = 0; j < Columns; ++j) {
+    WIRESKIN_UNROLL
+    for (int l = 0; l < Lanes; ++l) {
+      WIRESKIN_UNROLL
+      for (int v = 0; v < k_vectors; ++v) sum[j][l][v] = Wide{};
+    }
+  }
+  uint32_t k = 0;
+  for (; k + 8 <= d.depth; k += 8) {
+    WIRESKIN_UNROLL
+    for (int v = 0; v < k_vectors; ++v) {
+      const uint32_t at = k + static_cast<uint32_t>(v) * k_step;
+      Wide right[Lanes];
+      WIRESKIN_UNROLL
+      for (int l = 0; l < Lanes; ++l) right[l] = load<Wide>(b + static_cast<size_t>(l) * d.b_step + at);
+      WIRESKIN_UNROLL
+      for (int j = 0; j < Columns; ++j) {
+        const Wide left = load<Wide>(a + static_cast<size_t>(j) * d.a_step + at);
+        WIRESKIN_UNROLL
+        for (int l = 0; l < Lanes; ++l) sum[j][l][v] = sum[j][l][v] + left * right[l];
+      }
+    }
+  }
+  WIRESKIN_UNROLL
+  for (int j = 0; j < Columns; ++j) {
+    WIRESKIN_UNROLL
+    for (int l = 0; l < Lanes; ++l) {
+      double s[8];
+      WIRESKIN_UNROLL
+      for (int v = 0; v < k_vectors; ++v) {
+        store<Wide>(s + static_cast<uint32_t>(v) * k_step, sum[j][l][v]);
+      }
+      for (uint32_t r = k; r < d.depth; ++r) {  /* the last four */
+        s[r - k] += a[static_cast<size_t>(j) * d.a_step + r] * b[static_cast<size_t>(l) * d.b_step + r];
+      }
+      double* c = d.c + (column + static_cast<uint32_t>(j)) + (lane + static_cast<uint32_t>(l)) * d.c_step;
+      *c = *c - (((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])));
+    }
+  }
+}
+
+template <int Lanes>
+WIRESKIN_TARGET static void dot_lanes(const Dots& d, uint32_t lane) {
+  constexpr int k_columns = WIRESKIN_LANES == 2 ? 2 : 4;
+  uint32_t j = 0;
+  for (; j + k_columns <= d.columns; j += k_columns) dot_tile<k_columns, Lanes>(d, j, lane);
+  for (; j < d.columns; ++j) dot_tile<1, Lanes>(d, j, lane);
+}
+
+WIRESKIN_TARGET static void subtract_dots(const Dots& d) {
+  uint32_t lane = 0;
+#if WIRESKIN_LANES == 8
+  for (; lane + 3 <= d.lanes; lane += 3) dot_lanes<3>(d, lane);
+#endif
+  for (; lane < d.lanes; ++lane) dot_lanes<1>(d, lane);
+}
+
 template <typename V, int Columns>
 WIRESKIN_TARGET static WIRESKIN_INLINE void solve_vector(const DiagonalBlock& d, double* x, ptrdiff_t step) {
   V own[Columns];
@@ -8050,6 +9148,72 @@ WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
   }
 }
 
+/* Terms k and k + 8, k + 16 ... go to the same sum. */
+template <int Columns, int Lanes>
+WIRESKIN_TARGET static WIRESKIN_INLINE void dot_tile(const Dots& d, uint32_t column, uint32_t lane) {
+  constexpr uint32_t k_step = k_lanes<Wide>;
+  constexpr int k_vectors = 8 / k_step;
+  const double* a = d.a + column * d.a_step;
+  const double* b = d.b + lane * d.b_step;
+  Wide sum[Columns][Lanes][k_vectors];
+  WIRESKIN_UNROLL
+  for (int j = 0; j < Columns; ++j) {
+    WIRESKIN_UNROLL
+    for (int l = 0; l < Lanes; ++l) {
+      WIRESKIN_UNROLL
+      for (int v = 0; v < k_vectors; ++v) sum[j][l][v] = Wide{};
+    }
+  }
+  uint32_t k = 0;
+  for (; k + 8 <= d.depth; k += 8) {
+    WIRESKIN_UNROLL
+    for (int v = 0; v < k_vectors; ++v) {
+      const uint32_t at = k + static_cast<uint32_t>(v) * k_step;
+      Wide right[Lanes];
+      WIRESKIN_UNROLL
+      for (int l = 0; l < Lanes; ++l) right[l] = load<Wide>(b + static_cast<size_t>(l) * d.b_step + at);
+      WIRESKIN_UNROLL
+      for (int j = 0; j < Columns; ++j) {
+        const Wide left = load<Wide>(a + static_cast<size_t>(j) * d.a_step + at);
+        WIRESKIN_UNROLL
+        for (int l = 0; l < Lanes; ++l) sum[j][l][v] = sum[j][l][v] + left * right[l];
+      }
+    }
+  }
+  WIRESKIN_UNROLL
+  for (int j = 0; j < Columns; ++j) {
+    WIRESKIN_UNROLL
+    for (int l = 0; l < Lanes; ++l) {
+      double s[8];
+      WIRESKIN_UNROLL
+      for (int v = 0; v < k_vectors; ++v) {
+        store<Wide>(s + static_cast<uint32_t>(v) * k_step, sum[j][l][v]);
+      }
+      for (uint32_t r = k; r < d.depth; ++r) {  /* the last four */
+        s[r - k] += a[static_cast<size_t>(j) * d.a_step + r] * b[static_cast<size_t>(l) * d.b_step + r];
+      }
+      double* c = d.c + (column + static_cast<uint32_t>(j)) + (lane + static_cast<uint32_t>(l)) * d.c_step;
+      *c = *c - (((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])));
+    }
+  }
+}
+
+template <int Lanes>
+WIRESKIN_TARGET static void dot_lanes(const Dots& d, uint32_t lane) {
+  constexpr int k_columns = WIRESKIN_LANES == 2 ? 2 : 4;
+  uint32_t j = 0;
+  for (; j + k_columns <= d.columns; j += k_columns) dot_tile<k_columns, Lanes>(d, j, lane);
+  for (; j < d.columns; ++j) dot_tile<1, Lanes>(d, j, lane);
+}
+
+WIRESKIN_TARGET static void subtract_dots(const Dots& d) {
+  uint32_t lane = 0;
+#if WIRESKIN_LANES == 8
+  for (; lane + 3 <= d.lanes; lane += 3) dot_lanes<3>(d, lane);
+#endif
+  for (; lane < d.lanes; ++lane) dot_lanes<1>(d, lane);
+}
+
 template <typename V, int Columns>
 WIRESKIN_TARGET static WIRESKIN_INLINE void solve_vector(const DiagonalBlock& d, double* x, ptrdiff_t step) {
   V own[Columns];
@@ -8155,12 +9319,13 @@ Instructions best_instructions() {
   return has_instructions(Instructions::avx2) ? Instructions::avx2 : Instructions::baseline;
 }
 
-static const DenseKernels k_baseline_kernels = {&baseline::update, &baseline::solve_block,
-                                                &baseline::add_runs};
+static const DenseKernels k_baseline_kernels = {&baseline::update, &baseline::subtract_dots,
+                                                &baseline::solve_block, &baseline::add_runs};
 #ifdef WIRESKIN_X86
-static const DenseKernels k_avx2_kernels = {&avx2::update, &avx2::solve_block, &avx2::add_runs};
-static const DenseKernels k_avx512_kernels = {&avx512::update, &avx512::solve_block,
-                                              &avx512::add_runs};
+static const DenseKernels k_avx2_kernels = {&avx2::update, &avx2::subtract_dots, &avx2::solve_block,
+                                            &avx2::add_runs};
+static const DenseKernels k_avx512_kernels = {&avx512::update, &avx512::subtract_dots,
+                                              &avx512::solve_block, &avx512::add_runs};
 #endif
 
 DenseKernels dense_kernels(Instructions instructions) {
@@ -8977,7 +10142,16 @@ Status Cholesky::factor(const Csc& lower) {
   return {};
 }
 
-/* The lanes of a right-hand side that stand side by side: a row of the solution. */
+void Cholesky::end_factoring() {
+  analysed_ = false;
+  lower_.start.free();
+  lower_.index.free();
+  lower_.source.free();
+  supernodes_.of_column.free();
+  fronts_ = Fronts(*context_);
+}
+
+/* The triangle of a diagonal block, turned round for the backward pass. */
 static DiagonalBlock triangle_at(const double* at, size_t step, uint32_t columns, bool backward) {
   DiagonalBlock d;
   d.columns = columns;
@@ -8995,70 +10169,121 @@ static DiagonalBlock triangle_at(const double* at, size_t step, uint32_t columns
   return d;
 }
 
+/* Asks for `count` numbers of a panel that are read next: in several columns at a time, too many */
+/* and too short for the processor to foresee. */
+static void fetch(const double* at, size_t count) {
+#if defined(__GNUC__)
+  constexpr size_t k_line = 8;
+  for (size_t i = 0; i < count; i += k_line) __builtin_prefetch(at + i, 0, 2);
+#else
+  (void)at, (void)count;
+#endif
+}
+
+namespace {
+
+/* The right-hand sides of one supernode: lane l of row r of its panel at value[l * step + r]. */
+struct Lanes {
+  double* value;
+  size_t step;
+  uint32_t count;
+  double* block;  /* eight rows, the lanes of each side by side */
+};
+
+}  /* namespace */
+
+static void gather_lanes(const uint32_t* rows, uint32_t height, const double* y, const Lanes& z) {
+  for (uint32_t l = 0; l < z.count; ++l) {
+    const double* from = y + l;
+    double* to = z.value + l * z.step;
+    for (uint32_t r = 0; r < height; ++r) to[r] = from[size_t{rows[r]} * z.count];
+  }
+}
+
+static void scatter_lanes(const uint32_t* rows, uint32_t height, const Lanes& z, double* y) {
+  for (uint32_t l = 0; l < z.count; ++l) {
+    const double* from = z.value + l * z.step;
+    double* to = y + l;
+    for (uint32_t r = 0; r < height; ++r) to[size_t{rows[r]} * z.count] = from[r];
+  }
+}
+
+/* Solves with a diagonal block in rows `first` and on. */
+static void solve_triangle(const DenseKernels& kernels, const DiagonalBlock& d, uint32_t first,
+                           bool backward, const Lanes& z) {
+  const uint32_t rows = round_up_rows(z.count);
+  for (uint32_t j = 0; j < d.columns; ++j) {
+    for (uint32_t l = 0; l < z.count; ++l) z.block[j * rows + l] = z.value[l * z.step + first + j];
+  }
+  if (backward) {
+    kernels.solve_block(d, rows, z.block + size_t{d.columns - 1} * rows,
+                        -static_cast<ptrdiff_t>(rows));
+  } else {
+    kernels.solve_block(d, rows, z.block, static_cast<ptrdiff_t>(rows));
+  }
+  for (uint32_t j = 0; j < d.columns; ++j) {
+    for (uint32_t l = 0; l < z.count; ++l) z.value[l * z.step + first + j] = z.block[j * rows + l];
+  }
+}
+
+/* What solve() needs behind the right-hand sides. */
+static size_t lanes_size(size_t step, uint32_t lanes) {
+  return step * lanes + size_t{DiagonalBlock::k_size} * round_up_rows(lanes);
+}
+
+static Lanes lanes_at(double* at, size_t step, uint32_t lanes) {
+  return {at, step, lanes, at + step * lanes};
+}
+
 /* y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S: eight columns at a time, so that the panel */
-/* is read from end to end. Transposed, a row of y is a column. */
+/* is read from end to end. */
 void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
-  const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
-  const size_t step = supernodes_.column_step(s), bytes = lanes * sizeof(double);
+  const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
+  const size_t step = supernodes_.column_step(s);
   const double* panel = value_.data() + supernodes_.panel[s];
-  const uint32_t* rows = supernodes_.rows(s) + width;
   double* y = workspace_.data();
-  double* own = y + size_t{supernodes_.first[s]} * lanes;
-  double* below = y + size_t{n_} * lanes;
-  for (uint32_t r = 0; r < tail; ++r) {
-    std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, bytes);
-  }
+  const Lanes z = lanes_at(y + size_t{n_} * lanes, lane_step(), lanes);
+  gather_lanes(supernodes_.rows(s), height, y, z);
   for (uint32_t j = 0; j < width; j += k_block) {
     const uint32_t columns = width - j < k_block ? width - j : k_block;
     const uint32_t after = j + columns;
     const double* block = panel + j * step;
-    double* x = own + size_t{j} * lanes;
-    kernels_.solve_block(triangle_at(block + j, step, columns, false), lanes, x, lanes);
-    const auto subtract = [&](uint32_t row, uint32_t count, double* from) {
-      kernels_.update(
-          {lanes, count, columns, x, lanes, block + row, 1, step, from, lanes, false, false},
-          scratch_.data());
-    };
-    if (after < width) subtract(after, width - after, own + size_t{after} * lanes);
-    if (tail > 0) subtract(width, tail, below);
+    if (after < width) fetch(block + columns * step, columns * step);
+    solve_triangle(kernels_, triangle_at(block + j, step, columns, false), j, false, z);
+    if (after == height) break;
+    kernels_.update({round_up_rows(height - after), lanes, columns, block + after, step,
+                     z.value + j, z.step, 1, z.value + after, z.step, false, false},
+                    scratch_.data());
   }
-  for (uint32_t r = 0; r < tail; ++r) {
-    std::memcpy(y + size_t{rows[r]} * lanes, below + size_t{r} * lanes, bytes);
-  }
+  scatter_lanes(supernodes_.rows(s), height, z, y);
 }
 
-/* y_S loses L_TS^T y_T, then y_S := L_SS^-T y_S. */
+/* y_S loses L_TS^T y_T, then y_S := L_SS^-T y_S. Behind the last row the lanes are zero. */
 void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
-  const uint32_t width = supernodes_.width(s), tail = supernodes_.height(s) - width;
+  const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
   const size_t step = supernodes_.column_step(s);
   const double* panel = value_.data() + supernodes_.panel[s];
   double* y = workspace_.data();
-  double* own = y + size_t{supernodes_.first[s]} * lanes;
-  if (tail > 0) {
-    const uint32_t* rows = supernodes_.rows(s) + width;
-    double* below = y + size_t{n_} * lanes;
-    for (uint32_t r = 0; r < tail; ++r) {
-      std::memcpy(below + size_t{r} * lanes, y + size_t{rows[r]} * lanes, lanes * sizeof(double));
-    }
-    kernels_.update(
-        {lanes, width, tail, below, lanes, panel + width, step, 1, own, lanes, false, false},
-        scratch_.data());
+  const Lanes z = lanes_at(y + size_t{n_} * lanes, lane_step(), lanes);
+  gather_lanes(supernodes_.rows(s), height, y, z);
+  for (uint32_t l = 0; l < lanes; ++l) {
+    for (uint32_t r = height; r < height + 4; ++r) z.value[l * z.step + r] = 0.0;
   }
   for (uint32_t j = (width - 1) / k_block * k_block + k_block; j > 0;) {
     j -= k_block;
     const uint32_t columns = width - j < k_block ? width - j : k_block;
     const uint32_t after = j + columns;
-    double* x = own + size_t{j} * lanes;
-    if (after < width) {
-      kernels_.update({lanes, columns, width - after, own + size_t{after} * lanes, lanes,
-                       panel + j * step + after, step, 1, x, lanes, false, false},
-                      scratch_.data());
+    const double* block = panel + j * step;
+    if (j > 0) fetch(block - k_block * step, k_block * step);
+    if (after < height) {
+      kernels_.subtract_dots({columns, lanes, round_up_rows(height - after), block + after, step,
+                              z.value + after, z.step, z.value + j, z.step});
     }
-    kernels_.solve_block(triangle_at(panel + j * step + j, step, columns, true), lanes,
-                         x + size_t{columns - 1} * lanes, -static_cast<ptrdiff_t>(lanes));
+    solve_triangle(kernels_, triangle_at(block + j, step, columns, true), j, true, z);
   }
+  scatter_lanes(supernodes_.rows(s), width, z, y);
 }
 
 Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
@@ -9072,29 +10297,30 @@ Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
 Status Cholesky::solve(Span<double> x, uint32_t columns) {
   if (!factored_) return fail(Code::bad_argument, "there is no factor to solve with");
   WIRESKIN_ASSERT(x.size() == size_t{n_} * columns);
-  const uint32_t lanes = round_up_rows(columns);
   /* The update matrices are done with: their memory holds the right-hand sides in elimination */
-  /* order, and behind them those of the rows below one supernode. */
-  const size_t room = (size_t{n_} + tallest_) * lanes;
+  /* order, and behind them those of one supernode. */
+  const size_t right_hand_sides = size_t{n_} * columns;
+  const size_t room = right_hand_sides + lanes_size(lane_step(), columns);
   if (workspace_.size() < room) workspace_.clear();
   TRY(workspace_.resize(room));
   for (uint32_t k = 0; k < n_; ++k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    double* to = workspace_.data() + size_t{k} * lanes;
-    for (uint32_t c = 0; c < lanes; ++c) to[c] = c < columns ? from[c] : 0.0;
+    double* to = workspace_.data() + size_t{k} * columns;
+    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
   }
+  for (size_t k = right_hand_sides; k < room; ++k) workspace_[k] = 0.0;
   size_t work = 0;
   for (uint32_t s = 0; s < supernodes_.count; ++s) {
-    solve_forward(s, lanes);
-    TRY(count_solve(s, lanes, &work));
+    solve_forward(s, columns);
+    TRY(count_solve(s, columns, &work));
   }
   for (uint32_t s = supernodes_.count; s-- > 0;) {
-    solve_backward(s, lanes);
-    TRY(count_solve(s, lanes, &work));
+    solve_backward(s, columns);
+    TRY(count_solve(s, columns, &work));
   }
   for (uint32_t k = 0; k < n_; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = workspace_[size_t{k} * lanes + c];
+    for (uint32_t c = 0; c < columns; ++c) to[c] = workspace_[size_t{k} * columns + c];
   }
   return {};
 }
@@ -9234,49 +10460,31 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
 /* ======== begin src/smooth/system.cpp ======== */
 namespace wireskin::smooth {
 
-/* y = A x for a symmetric matrix with both halves stored: column j is row j. Where most of x is */
-/* zero, as on meshes of which only the curves are known, the columns of the others are spared. */
-static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+/* Whether most of x is zero, as on meshes of which only the curves are known. */
+static bool is_mostly_zero(Span<const Vec3> x) {
   size_t zeros = 0;
   for (const Vec3& v : x) zeros += v == Vec3{};
-  if (4 * zeros > 3 * x.size()) {
-    for (Vec3& v : y) v = Vec3{};
-    for (uint32_t j = 0; j < a.cols; ++j) {
-      if (x[j] == Vec3{}) continue;
-      for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
-    }
-    return;
-  }
-  for (uint32_t j = 0; j < a.cols; ++j) {
-    Vec3 sum;
-    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
-    y[j] = sum;
-  }
+  return 4 * zeros > 3 * x.size();
 }
 
-/* The lower half of -L among the unknowns. */
-static Status negative_part(const sparse::Csc& a, Span<const uint32_t> unknown, uint32_t unknowns,
-                            sparse::Csc* part) {
-  part->rows = part->cols = unknowns;
-  TRY(part->start.resize(size_t{unknowns} + 1));
-  TRY(part->row.reserve(a.row.size()));
-  TRY(part->value.reserve(a.row.size()));
-  part->row.clear();
-  part->value.clear();
-  uint32_t j = 0;
-  for (uint32_t column = 0; column < a.cols; ++column) {
-    if (unknown[column] == k_none) continue;
-    part->start[j] = static_cast<uint32_t>(part->row.size());
-    for (uint32_t p = a.start[column]; p < a.start[column + 1]; ++p) {
-      const uint32_t i = unknown[a.row[p]];
-      if (i == k_none || i < j) continue;
-      part->row.push_reserved(i);
-      part->value.push_reserved(-a.value[p]);
-    }
-    ++j;
+/* Row j of A x for a symmetric matrix with both halves stored: column j is row j. */
+static Vec3 multiply_row(const sparse::Csc& a, uint32_t j, Span<const Vec3> x) {
+  Vec3 sum;
+  for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
+  return sum;
+}
+
+/* y = A x; columns that meet zeros are spared where there are many. */
+static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+  if (!is_mostly_zero(x)) {
+    for (uint32_t j = 0; j < a.cols; ++j) y[j] = multiply_row(a, j, x);
+    return;
   }
-  part->start[j] = static_cast<uint32_t>(part->row.size());
-  return {};
+  for (Vec3& v : y) v = Vec3{};
+  for (uint32_t j = 0; j < a.cols; ++j) {
+    if (x[j] == Vec3{}) continue;
+    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
+  }
 }
 
 Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
@@ -9313,6 +10521,10 @@ Status System::find_order(const sparse::Csc& matrix, Array<uint32_t>* order) con
   return sparse::nested_dissection(matrix, {{}, place_.span(), patch_.span()}, order);
 }
 
+static Status no_room_for_factor() {
+  return fail(Code::memory_cap, "the memory cap leaves no room for the factor of the system");
+}
+
 /* Finds the order of elimination and the structure of the factor, and whether that fits. */
 Status System::analyse() {
   Context& context = weight_.context();
@@ -9334,18 +10546,27 @@ Status System::analyse() {
   return {};
 }
 
-/* The factor of -L_ff, which no weights change. */
+/* The factor of S - L_ff. Its structure no weights and no penalties change; S no weights. */
 Status System::prepare_iteration() {
   Context& context = weight_.context();
   sparse::Csc part(context);
-  Array<uint32_t> order(context);
-  factor_ = sparse::Cholesky(context);
-  TRY(negative_part(*laplacian_, unknown_.span(), unknowns_, &part));
-  TRY(find_order(part, &order));
-  TRY(factor_.analyse(part, order.span()));
-  order.free();
-  iterative_ = true;
-  return factor_.factor(part);
+  Array<double> shift(context);
+  if (order_ == Order::two && !penalty_.empty()) {
+    TRY(shift.resize(penalty_.size()));
+    for (size_t v = 0; v < shift.size(); ++v) {
+      shift[v] = std::sqrt(weight_[v] > 0.0 ? penalty_[v] / weight_[v] : penalty_[v]);
+    }
+  }
+  TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, shift.span(), &part));
+  if (!iterative_) {
+    Array<uint32_t> order(context);
+    factor_ = sparse::Cholesky(context);
+    TRY(find_order(part, &order));
+    TRY(factor_.analyse(part, order.span()));
+    iterative_ = true;
+  }
+  const Status factored = factor_.factor(part);
+  return factored.code == Code::not_positive_definite ? no_room_for_factor() : factored;
 }
 
 /* y = (L_ff W L_ff)^-1 x, for order 3 (L_ff W L_ff W L_ff)^-1 x up to the sign. */
@@ -9379,22 +10600,20 @@ Status System::iterate(size_t columns) {
                                     {&apply_laplacian_inverses, this}, b.span(), x.span(), options,
                                     &result));
     context.count_iterations(result.iterations);
-    if (!(result.residual <= 1e-6)) {
-      return fail(Code::memory_cap, "the memory cap leaves no room for the factor of the system");
-    }
+    if (!(result.residual <= 1e-6)) return no_room_for_factor();
     for (size_t i = 0; i < unknowns_; ++i) block_[columns * i + c] = x[i];
   }
   return {};
 }
 
-Status System::factor(Span<const double> weight, Span<const double> penalty) {
+Status System::factor(Span<const double> weight, Span<const double> penalty, bool last) {
   Context& context = weight_.context();
   TRY(context.enter(Stage::operators));
   TRY(weight_.copy(weight));
   TRY(penalty_.copy(penalty));
   if (unknowns_ == 0) return {};
   if (order_ == Order::one) {
-    TRY(negative_part(*laplacian_, unknown_.span(), unknowns_, &matrix_));
+    TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, {}, &matrix_));
   } else if (order_ == Order::two) {
     TRY(sparse::weighted_product(*laplacian_, weight, *laplacian_, unknown_.span(), unknowns_,
                                  sparse::Part::lower, &matrix_));
@@ -9415,14 +10634,17 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
   }
   add_penalties();
   TRY(context.enter(Stage::factor));
-  if (!analysed_) {
-    TRY(analyse());
-  }
-  if (iterative_) return {};
+  const bool first = !analysed_;
+  if (first) TRY(analyse());
+  if (iterative_) return first || penalty.empty() ? Status{} : prepare_iteration();
   /* The factor is the greatest thing in memory: what it does not need goes before it, or after. */
   matrix_.row.free();
   Status factored = factor_.factor(matrix_);
   matrix_.value.free();
+  if (last) {
+    factor_.end_factoring();
+    analysed_ = false;
+  }
   factored.place = {};  /* a column of ours means nothing to the caller */
   return factored;
 }
@@ -9433,21 +10655,23 @@ Status System::factor(Span<const double> weight, Span<const double> penalty) {
 Status System::find_gradients(Span<const Field3> fields, double* squares) {
   Context& context = weight_.context();
   const size_t columns = 3 * fields.size(), n = unknown_.size();
-  Array<Vec3> a(context), b(context);
-  TRY(a.resize(n));
-  TRY(b.resize(n));
+  Array<Vec3> image(context), spare(context);
+  TRY(image.resize(n));
+  if (order_ == Order::three) TRY(spare.resize(n));
   for (size_t f = 0; f < fields.size(); ++f) {
     const Field3& field = fields[f];
-    multiply_vectors(*laplacian_, field.value, a.span());
+    Span<const Vec3> x = field.value;  /* the last factor L is applied row by row below */
     for (int k = 1; k < static_cast<int>(order_); ++k) {
+      const Span<Vec3> y = k == 1 ? image.span() : spare.span();
       const bool aims = k == 1 && !field.target.empty();
-      for (size_t v = 0; v < n; ++v) b[v] = weight_[v] * (aims ? field.target[v] - a[v] : -a[v]);
-      multiply_vectors(*laplacian_, b.span(), a.span());
+      multiply_vectors(*laplacian_, x, y);
+      for (size_t v = 0; v < n; ++v) y[v] = weight_[v] * (aims ? field.target[v] - y[v] : -y[v]);
+      x = y;
     }
     Vec3 sum;
-    for (size_t v = 0; v < n; ++v) {
+    for (uint32_t v = 0; v < n; ++v) {
       if (unknown_[v] == k_none) continue;
-      Vec3 g = a[v];
+      Vec3 g = multiply_row(*laplacian_, v, x);
       if (!penalty_.empty() && penalty_[v] != 0.0) {
         g += penalty_[v] * (field.anchor[v] - field.value[v]);
       }
@@ -9621,14 +10845,15 @@ static Status aim_at_conormals(Context& context, const Domain& domain, const Fie
 
 /* Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor */
 /* and one sweep serve both; soft ones pull normals and positions by springs of their own. */
-static Status propagate(Context& context, const Domain& domain, const Field& field, Guided* guided,
-                        double* residual) {
+static Status propagate(Context& context, const Domain& domain, Method method, const Field& field,
+                        Guided* guided, double* residual) {
   Array<double> penalty(context);
   if (!domain.bare.empty()) {
     TRY(estimate_bare_normals(context, domain, field, guided, residual));
   }
   TRY(penalties(domain, 2, true, &penalty));
-  TRY(guided->system.factor(guided->weight.span(), penalty.span()));
+  const bool last = !domain.soft.any() && method == Method::stanko;
+  TRY(guided->system.factor(guided->weight.span(), penalty.span(), last));
   const Field3 normals = {{}, domain.soft.normal, field.normal};
   if (!domain.soft.any()) {  /* the normals along borders are known */
     TRY(aim_at_conormals(context, domain, field, guided));
@@ -9685,13 +10910,14 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
               guided.weight.span());
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
   TRY(guided.system.prepare(laplacian, domain.held, order, domain.places));
+  if (domain.spent_places != nullptr) domain.spent_places->free();
   if (!uses_normals) {
     Array<double> penalty(context);
     TRY(penalties(domain, static_cast<int>(order), false, &penalty));
-    TRY(guided.system.factor(guided.weight.span(), penalty.span()));
+    TRY(guided.system.factor(guided.weight.span(), penalty.span(), true));
     return guided.system.solve({}, domain.soft.position, field.position, residual);
   }
-  TRY(propagate(context, domain, field, &guided, residual));
+  TRY(propagate(context, domain, method, field, &guided, residual));
   TRY(context.enter(Stage::operators));
   TRY(mesh::mean_curvature(field.position, field.normal, domain.triangle, domain.on_border,
                            &guided.curvature));
@@ -9754,16 +10980,17 @@ static Status list_patch_curves(const network::Network& network, PatchList* patc
 /* Meshes all patches; with `partial` those that can be, the network being cut down to them. */
 /* `original`: the number of each patch that is left; empty where all are. */
 static Status make_patches(const curves::Curves& fitted, const Settings& settings,
-                           Array<network::Node>* nodes, network::Network* network,
-                           network::CurveVertices* vertices, network::PatchMesh* patches,
-                           Array<uint32_t>* original, Surface* surface) {
+                           Span<const Status> faults, Array<network::Node>* nodes,
+                           network::Network* network, network::CurveVertices* vertices,
+                           network::PatchMesh* patches, Array<uint32_t>* original,
+                           Surface* surface) {
   const bool in_space =
       settings.method == smooth::Method::iterated || settings.method == smooth::Method::fair;
   const double least_facing = in_space ? k_least_facing : -1.0;
   Counts* counts = &surface->counts;
   Context& context = nodes->context();
   TRY(list_patch_curves(*network, &surface->patches));
-  TRY(network::mesh_patches(*network, *vertices, least_facing, settings.partial, patches));
+  TRY(network::mesh_patches(*network, *vertices, least_facing, settings.partial, patches, faults));
   TRY(surface->patches.way.resize(patches->way.size()));
   for (size_t p = 0; p < patches->way.size(); ++p) {
     surface->patches.way[p] = static_cast<uint8_t>(patches->way[p]);
@@ -9831,6 +11058,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   Constraints constraints(context);
   Array<Vec3> given(context);
   Array<uint32_t> original(context), inner_edge(context);
+  Array<Status> faults(context);
 
   TRY(context.enter(Stage::curves));
   const double size = diagonal(set.position);
@@ -9840,7 +11068,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(fit_curves(context, set, size, settings.smoothing, &nodes, &fitted, counts));
 
   TRY(context.enter(Stage::network));
-  TRY(network::find_patches(fitted, set.boundary, nodes.span(), &network));
+  TRY(network::find_patches(fitted, set.boundary, nodes.span(), &network,
+                            settings.partial ? &faults : nullptr));
   counts->segments = static_cast<uint32_t>(network.segment.size());
   counts->patches = network.patches();
   TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
@@ -9851,7 +11080,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   counts->patches = network.patches();
 
   TRY(context.enter(Stage::patches));
-  TRY(make_patches(fitted, settings, &nodes, &network, &vertices, &patches, &original, surface));
+  TRY(make_patches(fitted, settings, faults.span(), &nodes, &network, &vertices, &patches,
+                   &original, surface));
   TRY(list_curve_edges(network, vertices, surface));
   TRY(list_inner_edges(network, vertices, &inner_edge));
   counts->patches = network.patches();
@@ -9865,7 +11095,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
                        patches.start.span(), patches.placed.span(),  inner_edge.span(),
-                       &patches.shape};
+                       &patches.shape,       &patches.start};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
@@ -9958,6 +11188,276 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
 
 }  /* namespace wireskin */
 /* ======== end src/surface.cpp ======== */
+
+/* ======== begin src/api/report.cpp ======== */
+namespace wireskin::api {
+
+static void report_status(const Status& status, wsk_report* report) {
+  report->status = static_cast<wsk_status>(status.code);
+  report->sentence = status.sentence;
+  report->curve = status.place.curve;
+  report->sample = status.place.sample;
+  report->node = status.place.node;
+  report->patch = status.place.patch;
+  report->vertex = status.place.vertex;
+  report->triangle = status.place.triangle;
+}
+
+void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report) {
+  report->curves = counts.curves;
+  report->nodes = counts.nodes;
+  report->segments = counts.segments;
+  report->patches = counts.patches;
+  report->vertices = counts.vertices;
+  report->free_vertices = counts.free_vertices;
+  report->triangles = counts.triangles;
+  report->components = counts.components;
+  report->boundary_loops = counts.boundary_loops;
+  report->euler_characteristic = counts.euler_characteristic;
+  report->spacing = unscale(counts.spacing);
+  report->min_angle_deg = counts.least_angle;
+  report->residual = counts.residual;
+  report->noise_position = unscale(counts.noise.sigma_position);
+  report->noise_normal = counts.noise.sigma_normal;
+  report->cg_iterations = counts.iterations;
+  report->minimal_area_patches = counts.minimal_area_patches;
+  report->guarded_patches = counts.guarded_patches;
+  report->constraint_distance_max = unscale(counts.greatest_distance);
+  report->constraint_distance_rms = unscale(std::sqrt(counts.mean_square_distance));
+  report->normal_deviation_mean_deg = counts.normal_deviation.mean;
+  report->normal_deviation_max_deg = counts.normal_deviation.greatest;
+  report->dihedral_mean_deg = counts.dihedral.mean;
+  report->dihedral_max_deg = counts.dihedral.greatest;
+  report->failed_patches = counts.failed_patches;
+  report->ambiguous_patches = counts.ambiguous_patches;
+  report->first_ambiguous_patch = counts.first_ambiguous_patch;
+}
+
+void report_costs(Context& context, wsk_report* report) {
+  context.stop_clock();
+  report->stage = static_cast<wsk_stage>(context.stage());
+  report->peak_bytes = context.peak_bytes();
+  report->factorisations = context.factorisations();
+  report->cg_iterations += context.iterations();
+  report->solver = context.is_iterative() ? WSK_SOLVER_ITERATIVE : WSK_SOLVER_DIRECT;
+  for (int s = 0; s < WSK_STAGE_COUNT; ++s) {
+    report->stage_ms[s] = context.milliseconds(s);
+    report->total_ms += report->stage_ms[s];
+  }
+}
+
+wsk_status finish(const Status& status, wsk_report* report, wsk_report* out) {
+  report_status(status, report);
+  if (out != nullptr) {
+    const size_t size = out->size;
+    if (size < k_report_size) return WSK_ERROR_BAD_ARGUMENT;
+    std::memcpy(out, report, least(size, sizeof *report));
+    out->size = size;
+  }
+  return report->status;
+}
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/report.cpp ======== */
+
+/* ======== begin src/api/view.cpp ======== */
+namespace wireskin::api {
+
+/* Where the arrays of a surface's view stand in its block. */
+struct SurfaceLayout {
+  size_t positions, normals, curvature, gaussian, constraint, vertex_curve, triangle, patch;
+  size_t edges, edge_curve, guarded, sentences, statuses, ways, patch_start, patch_curve, bytes;
+
+  explicit SurfaceLayout(const Surface& surface) {
+    const size_t n = surface.position.size(), triangles = surface.patch.size();
+    const size_t listed = surface.patches.status.size();
+    Layout layout(sizeof(wsk_surface));
+    positions = layout.add_array<double>(3 * n);
+    normals = layout.add_array<double>(3 * n);
+    curvature = layout.add_array<double>(n);
+    gaussian = layout.add_array<double>(n);
+    constraint = layout.add_array<double>(3 * n);
+    vertex_curve = layout.add_array<uint32_t>(n);
+    triangle = layout.add_array<uint32_t>(3 * triangles);
+    patch = layout.add_array<uint32_t>(triangles);
+    edges = layout.add_array<uint32_t>(surface.curve_edge.size());
+    edge_curve = layout.add_array<uint32_t>(surface.curve_edge_curve.size());
+    guarded = layout.add_array<uint8_t>(has_guard(surface) ? surface.patch_guarded.size() : 0);
+    sentences = layout.add_array<const char*>(listed);
+    statuses = layout.add_array<wsk_status>(listed);
+    ways = layout.add_array<uint8_t>(listed);
+    patch_start = layout.add_array<uint32_t>(surface.patches.curve_start.size());
+    patch_curve = layout.add_array<uint32_t>(surface.patches.curve.size());
+    bytes = layout.bytes();
+  }
+
+  static bool has_guard(const Surface& surface) {
+    return !surface.patch_guarded.empty() && !surface.curve_edge.empty();
+  }
+};
+
+static const uint32_t* write_indices(unsigned char* block, size_t offset,
+                                     const Array<uint32_t>& values) {
+  if (values.empty()) return nullptr;
+  std::memcpy(block + offset, values.data(), values.size() * sizeof(uint32_t));
+  return reinterpret_cast<const uint32_t*>(block + offset);
+}
+
+static void write_curvatures(const Surface& surface, const SurfaceLayout& layout,
+                             const Scale& curvatures, unsigned char* block,
+                             wsk_surface_view* view) {
+  const size_t n = surface.position.size();
+  double* h = reinterpret_cast<double*>(block + layout.curvature);
+  for (size_t v = 0; v < n; ++v) h[v] = curvatures(surface.mean_curvature[v]);
+  view->mean_curvature = h;
+  double* k = reinterpret_cast<double*>(block + layout.gaussian);
+  for (size_t v = 0; v < n; ++v) k[v] = curvatures(curvatures(surface.gaussian_curvature[v]));
+  view->gaussian_curvature = k;
+}
+
+/* Surfaces of meshes and of flows have patches that no list says more of. */
+static void write_patch_list(const Surface& surface, const SurfaceLayout& layout,
+                             unsigned char* block, wsk_surface_view* view) {
+  const size_t listed = surface.patches.status.size();
+  const char** sentence = reinterpret_cast<const char**>(block + layout.sentences);
+  wsk_status* status = reinterpret_cast<wsk_status*>(block + layout.statuses);
+  for (size_t p = 0; p < listed; ++p) {
+    sentence[p] = surface.patches.status[p].sentence;
+    status[p] = static_cast<wsk_status>(surface.patches.status[p].code);
+    block[layout.ways + p] = surface.patches.way[p];
+  }
+  view->patch_sentence = listed > 0 ? sentence : nullptr;
+  view->patch_status = listed > 0 ? status : nullptr;
+  view->patch_way = listed > 0 ? block + layout.ways : nullptr;
+  view->patch_curve_start = write_indices(block, layout.patch_start, surface.patches.curve_start);
+  view->patch_curves = write_indices(block, layout.patch_curve, surface.patches.curve);
+}
+
+Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out) {
+  const SurfaceLayout layout(surface);
+  void* memory = nullptr;
+  TRY(context.allocate(layout.bytes, 1, &memory));
+  unsigned char* block = static_cast<unsigned char*>(memory);
+  const Scale none(0), lengths(exponent), curvatures(-exponent);
+  wsk_surface* handle = static_cast<wsk_surface*>(memory);
+  handle->allocator = context.allocator();
+  handle->bytes = layout.bytes;
+  wsk_surface_view& view = handle->view;
+  view = {};
+  view.size = sizeof view;
+  view.vertex_count = static_cast<uint32_t>(surface.position.size());
+  view.triangle_count = static_cast<uint32_t>(surface.patch.size());
+  view.patch_count = surface.counts.patches;
+  view.curve_edge_count = static_cast<uint32_t>(surface.curve_edge_curve.size());
+  view.positions = write_vectors(block, layout.positions, surface.position.span(), lengths);
+  view.normals = write_vectors(block, layout.normals, surface.normal.span(), none);
+  view.constraint_normals =
+      write_vectors(block, layout.constraint, surface.constraint_normal.span(), none);
+  write_curvatures(surface, layout, curvatures, block, &view);
+  view.vertex_curve = write_indices(block, layout.vertex_curve, surface.vertex_curve);
+  view.triangles = write_indices(block, layout.triangle, surface.triangle);
+  view.triangle_patch = write_indices(block, layout.patch, surface.patch);
+  view.curve_edges = write_indices(block, layout.edges, surface.curve_edge);
+  view.curve_edge_curve = write_indices(block, layout.edge_curve, surface.curve_edge_curve);
+  if (SurfaceLayout::has_guard(surface)) {
+    std::memcpy(block + layout.guarded, surface.patch_guarded.data(), surface.patch_guarded.size());
+    view.patch_guarded = block + layout.guarded;
+  }
+  write_patch_list(surface, layout, block, &view);
+  *out = handle;
+  return context.progress(1.0);
+}
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/view.cpp ======== */
+
+/* ======== begin src/api/curves.cpp ======== */
+namespace wireskin::api {
+
+static Status count_samples(const wsk_curve* curves, size_t count, size_t* total, bool* sharp) {
+  *total = 0;
+  *sharp = false;
+  for (size_t c = 0; c < count; ++c) {
+    const Place place = curve_place(c);
+    const wsk_curve& curve = curves[c];
+    if (curve.sample_count == 0) {
+      return fail(Code::too_few_samples, "the curve has no samples", place);
+    }
+    if (curve.sample_count >= k_none - *total) {
+      return fail(Code::too_large, "too many samples for 32-bit indices", place);
+    }
+    if (curve.positions == nullptr) {
+      return fail(Code::bad_argument, "the curve has no positions", place);
+    }
+    *sharp = *sharp || curve.sharp != 0;
+    if (curve.normals == nullptr && curve.sharp == 0 && curve.sample_count != 1) {
+      return fail(Code::missing_normals, "the curve has no normals", place);
+    }
+    if (curve.soft - curve.soft != 0.0) {
+      return fail(Code::bad_argument, "the cutoff length of the curve is not finite", place);
+    }
+    *total += curve.sample_count;
+  }
+  return {};
+}
+
+/* A normal of one side of a sharp curve; zero where the side has none. */
+static Status read_side_normal(const double* data, size_t stride, size_t i, const Place& place,
+                               Vec3* normal) {
+  *normal = Vec3{};
+  return data == nullptr ? Status{} : read_normal({data, stride}, i, place, normal);
+}
+
+static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* storage) {
+  const Rows positions = {curve.positions, curve.position_stride};
+  for (size_t i = 0; i < curve.sample_count; ++i) {
+    const Place place = sample_place(index, i);
+    Vec3 position, normal;
+    TRY(read_position(positions, i, place, &position));
+    TRY(read_side_normal(curve.normals, curve.normal_stride, i, place, &normal));
+    storage->position.push_reserved(position);
+    storage->normal.push_reserved(normal);
+    storage->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
+    if (storage->sharp.empty()) continue;
+    const double* right = curve.sharp != 0 ? curve.normals_right : nullptr;
+    TRY(read_side_normal(right, curve.normal_right_stride, i, place, &normal));
+    storage->right.push_reserved(normal);
+  }
+  storage->closed.push_reserved(curve.closed != 0);
+  storage->boundary.push_reserved(curve.boundary != 0);
+  storage->soft.push_reserved(curve.soft);
+  storage->start.push_reserved(static_cast<uint32_t>(storage->position.size()));
+  return {};
+}
+
+Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage) {
+  size_t total = 0;
+  if (count == 0) return fail(Code::empty, "there are no curves");
+  if (curves == nullptr) return fail(Code::bad_argument, "the curves are null");
+  if (count >= k_none) return fail(Code::too_large, "too many curves for 32-bit indices");
+  bool sharp = false;
+  TRY(count_samples(curves, count, &total, &sharp));
+  TRY(storage->start.reserve(count + 1));
+  TRY(storage->closed.reserve(count));
+  TRY(storage->boundary.reserve(count));
+  TRY(storage->soft.reserve(count));
+  TRY(storage->position.reserve(total));
+  TRY(storage->normal.reserve(total));
+  TRY(storage->number.reserve(total));
+  if (sharp) {
+    TRY(storage->sharp.resize(count));
+    TRY(storage->right.reserve(total));
+    for (size_t c = 0; c < count; ++c) storage->sharp[c] = curves[c].sharp != 0;
+  }
+  storage->start.push_reserved(0);
+  for (size_t c = 0; c < count; ++c) {
+    TRY(read_curve(curves[c], static_cast<uint32_t>(c), storage));
+  }
+  return {};
+}
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/curves.cpp ======== */
 
 /* ======== begin src/flow/complex.cpp ======== */
 namespace wireskin::flow {
@@ -10300,112 +11800,6 @@ Status find_critical_points(const Complex& complex, CriticalPoints* critical) {
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/critical.cpp ======== */
 
-/* ======== begin src/flow/persistence.cpp ======== */
-namespace wireskin::flow {
-
-static constexpr double k_least_ratio = 1.0 + 1e-6;
-
-/* Components of the complement of the balls as the radius shrinks: union-find over the tetrahedra */
-/* and, as the last node, the outside. Each root knows the maximum of its component. */
-struct VoidForest {
-  explicit VoidForest(Context& context) : parent(context), maximum(context) {}
-
-  Array<uint32_t> parent;
-  Array<uint32_t> maximum;
-
-  uint32_t root_of(uint32_t node) {
-    while (parent[node] != node) {
-      parent[node] = parent[parent[node]];
-      node = parent[node];
-    }
-    return node;
-  }
-};
-
-static bool lower_maximum(const Complex& complex, uint32_t a, uint32_t b) {
-  const uint32_t outside = complex.tet_count();
-  if (a == outside || b == outside) return b == outside && a != outside;
-  const double fa = complex.tet_value[a];
-  const double fb = complex.tet_value[b];
-  return fa != fb ? fa < fb : a < b;
-}
-
-/* Values are not negative, so the order of their bits is theirs; turned over, the greatest is */
-/* first. */
-static uint64_t descending_bits(double value) {
-  uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return ~bits;
-}
-
-/* By decreasing value, then number. */
-static Status sort_triangles(Context& context, const Complex& complex, Array<BitsKey>* keys) {
-  const uint32_t count = complex.triangle_count();
-  TRY(keys->resize(count));
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t t = count - 1 - i;
-    (*keys)[i] = {descending_bits(complex.triangle_value[t]), t};
-  }
-  return radix_sort(context, keys);
-}
-
-static Void describe_void(const Complex& complex, uint32_t creator, uint32_t maximum) {
-  const double cap = 0.375 * complex.diagonal * complex.diagonal;
-  const double f = complex.triangle_value[creator];
-  const double filling = smaller(complex.tet_value[maximum], cap);
-  const double capped = smaller(f, cap);
-  const double ratio = capped > 0.0 ? std::sqrt(filling / capped) : 1.0;
-  return {creator, maximum, std::sqrt(f), std::sqrt(filling), ratio};
-}
-
-static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
-                         Persistence* persistence) {
-  Array<Void>& voids = persistence->voids;
-  voids.clear();
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (maximum_of[t] == k_none) continue;
-    const Void one = describe_void(complex, t, maximum_of[t]);
-    if (one.ratio > k_least_ratio) TRY(voids.push(one));
-  }
-  sort(voids.span(), [](const Void& a, const Void& b) {
-    return a.ratio != b.ratio ? a.ratio > b.ratio : a.creator < b.creator;
-  });
-  TRY(persistence->void_of.assign(complex.triangle_count(), k_none));
-  for (uint32_t i = 0; i < voids.size(); ++i) persistence->void_of[voids[i].creator] = i;
-  return {};
-}
-
-Status find_persistence(Context& context, const Complex& complex, Persistence* persistence) {
-  constexpr size_t k_triangles_per_checkpoint = 1u << 16;
-  const uint32_t outside = complex.tet_count();
-  Array<BitsKey> keys(context);
-  Array<uint32_t> maximum_of(context);
-  VoidForest voids(context);
-  TRY(sort_triangles(context, complex, &keys));
-  TRY(maximum_of.assign(complex.triangle_count(), k_none));
-  TRY(persistence->creator.assign(complex.triangle_count(), 0));
-  TRY(voids.parent.resize(outside + 1));
-  TRY(voids.maximum.resize(outside + 1));
-  for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
-  for (size_t i = 0; i < keys.size(); ++i) {
-    if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
-    const uint32_t t = keys[i].index;
-    const uint32_t a = complex.triangle_side[2 * t];
-    const uint32_t b = complex.triangle_side[2 * t + 1];
-    uint32_t low = voids.root_of(a == k_none ? outside : a);
-    uint32_t high = voids.root_of(b == k_none ? outside : b);
-    if (low == high) continue;
-    if (lower_maximum(complex, voids.maximum[high], voids.maximum[low])) swap_values(low, high);
-    persistence->creator[t] = 1;
-    maximum_of[t] = voids.maximum[low];
-    voids.parent[low] = high;
-  }
-  return list_voids(complex, maximum_of.span(), persistence);
-}
-
-}  /* namespace wireskin::flow */
-/* ======== end src/flow/persistence.cpp ======== */
-
 /* ======== begin src/flow/arcs.cpp ======== */
 namespace wireskin::flow {
 
@@ -10641,6 +12035,7 @@ Status find_arcs(Context& context, const Polylines& curves, Arcs* arcs) {
   arcs->diagonal = diagonal_of(curves.position);
   TRY(find_vertices(context, curves, arcs));
   const uint32_t vertices = static_cast<uint32_t>(arcs->vertex.size());
+  arcs->given = vertices;
   TRY(gather_edges(curves, *arcs, &graph.edge));
   TRY(link_edges(vertices, &graph));
   TRY(arcs->is_node.resize(vertices));
@@ -10654,6 +12049,110 @@ Status find_arcs(Context& context, const Polylines& curves, Arcs* arcs) {
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/arcs.cpp ======== */
+
+/* ======== begin src/surface/flow_noise.cpp ======== */
+namespace wireskin {
+
+namespace {
+
+/* The chains as the smoothing reads them: every place a sample of its own, all of them kept. */
+struct ChainSamples {
+  Array<uint32_t> kept;
+  Array<uint32_t> node;  /* of each place: the point that it shares with others, or k_none */
+  Array<Vec3> position, normal;
+
+  explicit ChainSamples(Context& context)
+      : kept(context), node(context), position(context), normal(context) {}
+};
+
+}  /* namespace */
+
+/* Vertices that occur in several places get numbers of their own. */
+static Status number_shared(uint32_t vertices, const flow::Chains& chains, Array<uint32_t>* node) {
+  Array<uint32_t> uses(node->context());
+  TRY(uses.assign(vertices, 0));
+  TRY(node->resize(chains.vertex.size()));
+  for (const uint32_t v : chains.vertex) ++uses[v];
+  uint32_t numbers = 0;
+  for (uint32_t& u : uses) u = u > 1 ? numbers++ : k_none;
+  for (size_t i = 0; i < node->size(); ++i) (*node)[i] = uses[chains.vertex[i]];
+  return {};
+}
+
+/* Without normals a constant field, which has no noise, stands for them. */
+static Status gather_places(const flow::Arcs& arcs, const flow::Chains& chains,
+                            Span<const Vec3> normal, ChainSamples* places) {
+  const size_t n = chains.vertex.size();
+  Array<Vec3> of_vertex(places->normal.context());
+  TRY(number_shared(static_cast<uint32_t>(arcs.vertex.size()), chains, &places->node));
+  TRY(places->kept.resize(n));
+  TRY(places->position.resize(n));
+  TRY(places->normal.resize(n));
+  TRY(of_vertex.assign(arcs.vertex.size(), Vec3{0, 0, 1}));
+  for (size_t s = normal.size(); s-- > 0;) of_vertex[arcs.sample_vertex[s]] = normal[s];
+  for (uint32_t c = 0; c < chains.size(); ++c) {
+    for (uint32_t i = chains.start[c]; i < chains.start[c + 1]; ++i) {
+      places->kept[i] = i - chains.start[c];
+      places->position[i] = arcs.vertex[chains.vertex[i]];
+      places->normal[i] = of_vertex[chains.vertex[i]];
+    }
+  }
+  return {};
+}
+
+static double greatest_move(const flow::Arcs& arcs, const flow::Chains& chains,
+                            Span<const Vec3> position) {
+  double greatest = 0.0;
+  for (size_t i = 0; i < position.size(); ++i) {
+    const double move = length(position[i] - arcs.vertex[chains.vertex[i]]);
+    if (move > greatest) greatest = move;
+  }
+  return greatest;
+}
+
+/* All samples of a vertex that moved get its new place. */
+static Status write_samples(const flow::Arcs& arcs, const flow::Chains& chains,
+                            Span<const Vec3> places, Span<Vec3> samples) {
+  Array<uint32_t> place(chains.vertex.context());
+  TRY(place.assign(arcs.vertex.size(), k_none));
+  for (uint32_t i = 0; i < chains.vertex.size(); ++i) place[chains.vertex[i]] = i;
+  for (size_t s = 0; s < samples.size(); ++s) {
+    const uint32_t i = place[arcs.sample_vertex[s]];
+    if (i != k_none) samples[s] = places[i];
+  }
+  return {};
+}
+
+Status smooth_polylines(Context& context, const flow::Polylines& polylines,
+                        const network::SmoothingOptions& options, Span<Vec3> position,
+                        Span<Vec3> normal, network::SmoothingReport* report) {
+  *report = {};
+  if (options.noise == network::Noise::none) return {};
+  flow::Arcs arcs(context);
+  flow::Chains chains(context);
+  ChainSamples places(context);
+  const bool found = options.noise == network::Noise::estimate;
+  TRY(flow::find_arcs(context, polylines, &arcs));
+  TRY(flow::find_chains(context, arcs, found ? 0.0 : options.sigma, &chains));
+  if (chains.size() == 0) return {};
+  TRY(gather_places(arcs, chains, normal, &places));
+  const network::KeptSamples kept = {
+      chains.start.span(),  chains.start.span(),  places.kept.span(),     places.node.span(),
+      chains.corner.span(), chains.closed.span(), places.position.span(), places.normal.span()};
+  network::SmoothingOptions inside = options;
+  inside.negligible = k_no_noise * arcs.diagonal;
+  inside.negligible_normal = k_no_noise_of_normals;
+  TRY(network::smooth_samples(context, kept, inside, report));
+  const double moved = greatest_move(arcs, chains, places.position.span());
+  if (moved > (found ? k_no_noise * arcs.diagonal : 0.0)) {
+    TRY(write_samples(arcs, chains, places.position.span(), position));
+  }
+  if (normal.empty() || !(report->lambda_normal > 0.0)) return {};
+  return write_samples(arcs, chains, places.normal.span(), normal);
+}
+
+}  /* namespace wireskin */
+/* ======== end src/surface/flow_noise.cpp ======== */
 
 /* ======== begin src/flow/sample.cpp ======== */
 namespace wireskin::flow {
@@ -10670,8 +12169,10 @@ struct ArcWalk {
   uint32_t step;
 
   ArcWalk(const Arcs& all, uint32_t arc) : arcs(all), step(all.start[arc]) {}
+  void go_back(uint32_t to) { step = to; }
   Vec3 at(double along, uint32_t last_step) {
     while (step < last_step && arcs.along[step + 1] < along) ++step;
+    if (arcs.along[step + 1] == along) return arcs.vertex[arcs.path[step + 1]];
     const double length = arcs.along[step + 1] - arcs.along[step];
     const double share = length > 0.0 ? (along - arcs.along[step]) / length : 0.0;
     const Vec3 &a = arcs.vertex[arcs.path[step]], &b = arcs.vertex[arcs.path[step + 1]];
@@ -10693,6 +12194,26 @@ struct Stations {
   Array<double> along;
 
   explicit Stations(Context& context) : start(context), along(context) {}
+};
+
+/* The stations of one arc; fixed ones stay where they are. */
+struct StationLine {
+  Array<double> along;
+  Array<uint8_t> fixed;
+
+  explicit StationLine(Context& context) : along(context), fixed(context) {}
+  void clear() {
+    along.clear();
+    fixed.clear();
+  }
+  Status push(double at, uint8_t is_fixed) {
+    TRY(along.push(at));
+    return fixed.push(is_fixed);
+  }
+  Status copy(const StationLine& other) {
+    TRY(along.copy(other.along.span()));
+    return fixed.copy(other.fixed.span());
+  }
 };
 
 }  /* namespace */
@@ -10779,34 +12300,121 @@ static bool is_loop(const Arcs& arcs, uint32_t a) {
   return arcs.path[arcs.start[a]] == arcs.path[arcs.start[a + 1] - 1];
 }
 
+/* The place on the arc's path, strictly between two lengths, that lies farthest from the chord */
+/* between these; k_none if none is farther than `tolerance`. The walk goes on to the end. */
+static uint32_t worst_between(const Arcs& arcs, uint32_t a, double from, double to,
+                              double tolerance, ArcWalk* walk) {
+  const uint32_t last_step = arcs.start[a + 1] - 2;
+  const Vec3 p = walk->at(from, last_step);
+  const uint32_t first = walk->step + 1;
+  const Vec3 q = walk->at(to, last_step);
+  uint32_t worst = k_none;
+  for (uint32_t i = first; i <= last_step && arcs.along[i] < to; ++i) {
+    if (!(arcs.along[i] > from)) continue;
+    const double distance = distance_to_segment(arcs.vertex[arcs.path[i]], p, q);
+    if (!(distance > tolerance)) continue;
+    tolerance = distance;
+    worst = i;
+  }
+  return worst;
+}
+
+/* The step from an end of the arc, halved until the arc is nearly straight so far. */
+static double straight_step(const Arcs& arcs, uint32_t a, bool at_end, double step) {
+  constexpr int k_most_halvings = 20;
+  const double whole = arcs.length_of(a);
+  for (int k = 0; k < k_most_halvings; ++k, step *= 0.5) {
+    ArcWalk walk(arcs, a);
+    const double from = at_end ? whole - step : 0.0, to = at_end ? whole : step;
+    if (worst_between(arcs, a, from, to, k_given_distance * step, &walk) == k_none) break;
+  }
+  return step;
+}
+
+/* Evenly from the last station on; `from` itself is one already. */
+static Status divide_stretch(double from, double to, double step, StationLine* line) {
+  const uint32_t pieces = pieces_for(to - from, step * (1.0 + 1e-9));
+  if (line->along.size() + pieces > k_most_samples) {
+    return fail(Code::too_large, "curves so near to each other need too many samples");
+  }
+  for (uint32_t i = 1; i < pieces; ++i) TRY(line->push(from + (to - from) * i / pieces, 0));
+  return line->push(to, 1);
+}
+
+/* Given points that lie too far from the segments become stations, the worst of each first: a */
+/* station nearby moves there, or else one is added. At last all points of a segment are added, so */
+/* that the cost stays near-linear whatever the curve. */
+static Status take_strays(const Arcs& arcs, uint32_t a, double step, StationLine* line,
+                          StationLine* work) {
+  constexpr int k_most_passes = 16;
+  constexpr double k_near = 0.4;  /* of the step */
+  bool any = true;
+  for (int pass = 0; any && pass <= k_most_passes; ++pass) {
+    ArcWalk walk(arcs, a);
+    any = false;
+    work->clear();
+    for (size_t i = 0; i + 1 < line->along.size(); ++i) {
+      const double from = line->along[i], to = line->along[i + 1];
+      const uint32_t first = walk.step + 1;
+      const uint32_t worst = worst_between(arcs, a, from, to, k_given_distance * step, &walk);
+      TRY(work->push(from, line->fixed[i]));
+      if (worst == k_none) continue;
+      any = true;
+      const double at = arcs.along[worst];
+      if (pass == k_most_passes) {
+        for (uint32_t k = first; arcs.along[k] < to; ++k) {
+          if (arcs.along[k] > from) TRY(work->push(arcs.along[k], 1));
+        }
+      } else if (work->fixed.back() == 0 && at - from < k_near * step) {
+        work->along.back() = at;
+        work->fixed.back() = 1;
+      } else if (line->fixed[i + 1] == 0 && to - at < k_near * step) {
+        line->along[i + 1] = at;
+        line->fixed[i + 1] = 1;
+        walk.go_back(first - 1);
+      } else {
+        TRY(work->push(at, 1));
+      }
+    }
+    TRY(work->push(line->along.back(), 1));
+    if (any) TRY(line->copy(*work));
+  }
+  return {};
+}
+
 /* Divides every arc; at a node all arcs take the same first step, the least of their own. */
 static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double> greatest,
                           Stations* stations) {
   Array<double> first_step(context);
+  StationLine own(context), work(context);
   TRY(first_step.assign(arcs.vertex.size(), DBL_MAX));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const uint32_t ends[2] = {arcs.path[arcs.start[a]], arcs.path[arcs.start[a + 1] - 1]};
     const uint32_t wished = pieces_for(arcs.length_of(a), greatest[a]);
     const uint32_t least = is_loop(arcs, a) ? k_least_pieces_of_loop : k_least_pieces;
     const double step = arcs.length_of(a) / (wished < least ? least : wished);
-    for (const uint32_t v : ends) first_step[v] = smaller(first_step[v], step);
+    for (uint32_t k = 0; k < 2; ++k) {
+      const double straight = arcs.closed[a] != 0 ? step : straight_step(arcs, a, k == 1, step);
+      first_step[ends[k]] = smaller(first_step[ends[k]], straight);
+    }
   }
   TRY(stations->start.push(0));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const double whole = arcs.length_of(a);
     const double begin = first_step[arcs.path[arcs.start[a]]];
     const double end = first_step[arcs.path[arcs.start[a + 1] - 1]];
-    const double rest = whole - begin - end;  /* at least one step, there are three */
     const double step = arcs.closed[a] != 0 ? begin : greatest[a];
-    const uint32_t pieces = pieces_for(rest, step * (1.0 + 1e-9));
-    if (stations->along.size() + pieces > k_most_samples) {
+    own.clear();
+    TRY(own.push(0.0, 1));
+    TRY(own.push(begin, arcs.closed[a] == 0));
+    TRY(divide_stretch(begin, whole - end, step, &own));
+    TRY(own.push(whole, 1));
+    if (arcs.closed[a] != 0) own.fixed[own.fixed.size() - 2] = 0;
+    TRY(take_strays(arcs, a, step, &own, &work));
+    if (stations->along.size() + own.along.size() > k_most_samples) {
       return fail(Code::too_large, "curves so near to each other need too many samples");
     }
-    TRY(stations->along.push(0.0));
-    for (uint32_t i = 0; i <= pieces; ++i) {
-      TRY(stations->along.push(begin + rest * i / (pieces == 0 ? 1 : pieces)));
-    }
-    TRY(stations->along.push(whole));
+    for (const double at : own.along) TRY(stations->along.push(at));
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
     if (a % 1024 == 0) TRY(context.checkpoint());
   }
@@ -11014,8 +12622,10 @@ void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t 
   }
 }
 
-void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
-  while (!sheet->loose.empty()) {
+/* Until nothing is loose or, if wished, a curve has lost its last triangle. */
+static void drain_loose(const Complex& complex, const CurveEdges& curves, Protect protect,
+                        bool until_bared, Sheet* sheet) {
+  while (!sheet->loose.empty() && !(until_bared && sheet->bared)) {
     const uint32_t e = sheet->loose.back();
     sheet->loose.pop();
     if (sheet->degree[e] != 1) continue;
@@ -11024,6 +12634,17 @@ void peel_after(const Complex& complex, const CurveEdges& curves, Protect protec
       if (sheet->in[t] != 0) remove_triangle(complex, curves, t, sheet);
     }
   }
+}
+
+void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
+  drain_loose(complex, curves, protect, false, sheet);
+}
+
+bool peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet) {
+  drain_loose(complex, curves, Protect::curves, true, sheet);
+  if (!sheet->bared) return true;
+  undo_removal(complex, sheet);
+  return false;
 }
 
 void peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
@@ -11062,12 +12683,400 @@ Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/sheet.cpp ======== */
 
+/* ======== begin src/flow/flat_faces.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_flat = 1e-3;          /* of the diagonal, off the plane */
+static constexpr double k_straight = 0.01;      /* of an arc's length, off its chord */
+static constexpr double k_least_corner = 0.94;  /* cosine of what a polygon turns at a corner */
+static constexpr double k_same_line = 0.9985;   /* of what it turns elsewhere */
+static constexpr uint8_t k_most_visits = 4;
+
+namespace {
+
+struct Plane {
+  Vec3 at, normal;
+};
+
+struct FaceFlood {
+  Array<uint32_t> mark;               /* of each triangle: the seed whose face it was last in */
+  Array<uint8_t> visits;              /* of each triangle */
+  Array<uint32_t> member;             /* the face */
+  Array<uint8_t> straight;            /* of each edge: on a straight arc */
+  Array<uint32_t> line;               /* of each vertex inside a straight arc: the arc */
+  Array<uint32_t> line_end;           /* of each arc, two */
+  Array<uint32_t> seen, border_edge;  /* of each vertex: its edges on the border, and one of them */
+
+  explicit FaceFlood(Context& context)
+      : mark(context),
+        visits(context),
+        member(context),
+        straight(context),
+        line(context),
+        line_end(context),
+        seen(context),
+        border_edge(context) {}
+};
+
+}  /* namespace */
+
+static double twice_area(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  return length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
+}
+
+static Plane plane_of(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  return {a, unit(cross(complex.point[v[1]] - a, complex.point[v[2]] - a))};
+}
+
+static bool in_plane(const Complex& complex, const Plane& plane, uint32_t t) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3& p = complex.point[complex.triangle[3 * size_t{t} + k]];
+    if (std::fabs(dot(p - plane.at, plane.normal)) > k_flat * complex.diagonal) return false;
+  }
+  return true;
+}
+
+static bool stays_on_line(const Samples& samples, uint32_t first, uint32_t last) {
+  const Vec3& p = samples.position[samples.at[first]];
+  const Vec3 chord = samples.position[samples.at[last]] - p;
+  const Vec3 along = unit(chord);
+  for (uint32_t i = first + 1; i < last; ++i) {
+    const Vec3 to = samples.position[samples.at[i]] - p;
+    if (length(to - dot(to, along) * along) > k_straight * length(chord)) return false;
+  }
+  return samples.at[first] != samples.at[last];
+}
+
+/* Marks the edges and the vertices of straight arcs. */
+static Status mark_straight(const Complex& complex, const Samples& samples,
+                            const CurveEdges& curves, FaceFlood* flood) {
+  TRY(flood->straight.assign(complex.edge_count(), 0));
+  TRY(flood->line.assign(complex.point.size(), k_none));
+  TRY(flood->line_end.assign(2 * samples.start.size(), k_none));
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
+    if (!stays_on_line(samples, first, last)) continue;
+    flood->line_end[2 * size_t{a}] = complex.same_as[samples.at[first]];
+    flood->line_end[2 * size_t{a} + 1] = complex.same_as[samples.at[last]];
+    for (uint32_t i = first; i < last; ++i) {
+      if (curves.edge_of[i] != k_none) flood->straight[curves.edge_of[i]] = 1;
+      if (i > first) flood->line[complex.same_as[samples.at[i]]] = a;
+    }
+  }
+  return {};
+}
+
+static Vec3 edge_vector(const Complex& complex, uint32_t e, uint32_t from) {
+  const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
+  return unit(a == from ? complex.point[b] - complex.point[a]
+                        : complex.point[a] - complex.point[b]);
+}
+
+/* Whether u, too, is on the straight arc that v is inside of. */
+static bool on_line_of(const FaceFlood& flood, uint32_t v, uint32_t u) {
+  const uint32_t line = flood.line[v];
+  return line != k_none && (flood.line[u] == line || flood.line_end[2 * size_t{line}] == u ||
+                            flood.line_end[2 * size_t{line} + 1] == u);
+}
+
+/* Edges of the complex that belong to the curves, or pass over samples of a straight one. */
+static bool on_rim(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
+                   uint32_t e) {
+  const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
+  return curves.on_curve(e) || on_line_of(flood, a, b) || on_line_of(flood, b, a);
+}
+
+/* All corners on one straight line: such a triangle lies in every plane through it. */
+static bool is_line(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
+                    uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const uint32_t* const edge = &complex.triangle_edge[3 * size_t{t}];
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t e = edge[(k + 1) % 3], f = edge[(k + 2) % 3];
+    if (curves.on_curve(e) && curves.on_curve(f)) {
+      if (dot(edge_vector(complex, e, v[k]), edge_vector(complex, f, v[k])) < -k_same_line) {
+        return true;
+      }
+    }
+    if (on_line_of(flood, v[k], v[(k + 1) % 3]) && on_line_of(flood, v[k], v[(k + 2) % 3])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/* Which side of an edge, within the plane, a triangle lies on. */
+static bool on_left(const Complex& complex, const Plane& plane, uint32_t e, uint32_t t) {
+  const Vec3& a = complex.point[complex.edge[2 * size_t{e}]];
+  const Vec3& b = complex.point[complex.edge[2 * size_t{e} + 1]];
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3 middle =
+      (1.0 / 3.0) * (complex.point[v[0]] + complex.point[v[1]] + complex.point[v[2]]);
+  return dot(cross(b - a, middle - a), plane.normal) > 0.0;
+}
+
+/* The sides of an edge that the face takes up, a bit each. */
+static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const Plane& plane,
+                         uint32_t seed, uint32_t e) {
+  uint32_t sides = 0;
+  for (const uint32_t t : complex.triangles_of(e)) {
+    if (flood.mark[t] == seed) sides |= on_left(complex, plane, e, t) ? 1u : 2u;
+  }
+  return sides;
+}
+
+static Status flood_face(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
+                         const Plane& plane, uint32_t seed, FaceFlood* flood) {
+  flood->member.clear();
+  const auto add = [&](uint32_t t) {
+    flood->mark[t] = seed;
+    ++flood->visits[t];
+    return flood->member.push(t);
+  };
+  TRY(add(seed));
+  for (size_t i = 0; i < flood->member.size(); ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
+      if (on_rim(complex, curves, *flood, e)) continue;
+      for (const uint32_t t : complex.triangles_of(e)) {
+        const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
+        if (done || sheet.in[t] == 0 || !in_plane(complex, plane, t)) continue;
+        if (!is_line(complex, curves, *flood, t)) TRY(add(t));
+      }
+    }
+  }
+  return {};
+}
+
+static bool is_closed(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
+                      const Plane& plane, uint32_t seed) {
+  for (const uint32_t t : flood.member) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (on_rim(complex, curves, flood, e)) continue;
+      if (sides_of(complex, flood, plane, seed, e) != 3) return false;
+    }
+  }
+  return true;
+}
+
+/* Notes an edge of the border at both its ends; false if it makes a bend with the one before. */
+static bool turns_well(const Complex& complex, uint32_t e, FaceFlood* flood) {
+  bool well = true;
+  for (uint32_t end = 0; end < 2; ++end) {
+    const uint32_t v = complex.edge[2 * size_t{e} + end];
+    if (flood->seen[v]++ == 0) {
+      flood->border_edge[v] = e;
+      continue;
+    }
+    const double cosine =
+        -dot(edge_vector(complex, e, v), edge_vector(complex, flood->border_edge[v], v));
+    well = well && (cosine > k_same_line || cosine < k_least_corner);
+  }
+  return well;
+}
+
+static bool is_polygon(const Complex& complex, const CurveEdges& curves, const Plane& plane,
+                       uint32_t seed, FaceFlood* flood) {
+  double whole = 0.0, straight = 0.0;
+  bool corners = true;
+  for (const uint32_t t : flood->member) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (!on_rim(complex, curves, *flood, e)) continue;
+      if (sides_of(complex, *flood, plane, seed, e) == 3) continue;
+      const double size = length(complex.point[complex.edge[2 * size_t{e}]] -
+                                 complex.point[complex.edge[2 * size_t{e} + 1]]);
+      whole += size;
+      if (curves.on_curve(e) && flood->straight[e] == 0) continue;
+      straight += size;
+      corners = turns_well(complex, e, flood) && corners;
+    }
+  }
+  for (const uint32_t t : flood->member) {
+    for (uint32_t k = 0; k < 3; ++k) flood->seen[complex.triangle[3 * size_t{t} + k]] = 0;
+  }
+  return corners && straight >= 0.5 * whole;
+}
+
+/* Triangles at curves, which every face has, largest first. */
+static Status list_seeds(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
+                         const FaceFlood& flood, Array<double>* area, Array<uint32_t>* seeds) {
+  TRY(area->resize(complex.triangle_count()));
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (sheet.in[t] == 0) continue;
+    (*area)[t] = twice_area(complex, t);
+    bool at_curve = false;
+    for (uint32_t k = 0; k < 3; ++k) {
+      at_curve = at_curve || curves.on_curve(complex.triangle_edge[3 * size_t{t} + k]);
+    }
+    if (at_curve && !is_line(complex, curves, flood, t)) TRY(seeds->push(t));
+  }
+  sort(seeds->span(), [&](uint32_t a, uint32_t b) {
+    return (*area)[a] != (*area)[b] ? (*area)[a] > (*area)[b] : a < b;
+  });
+  return {};
+}
+
+Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
+                       const CurveEdges& curves, const Sheet& sheet, Array<Flatness>* flatness) {
+  constexpr size_t k_members_per_checkpoint = 1u << 15;
+  FaceFlood flood(context);
+  Array<double> area(context);
+  Array<uint32_t> seeds(context);
+  TRY(flatness->assign(complex.triangle_count(), Flatness::none));
+  TRY(flood.mark.assign(complex.triangle_count(), k_none));
+  TRY(flood.visits.assign(complex.triangle_count(), 0));
+  TRY(flood.seen.assign(complex.point.size(), 0));
+  TRY(flood.border_edge.resize(complex.point.size()));
+  TRY(mark_straight(complex, samples, curves, &flood));
+  TRY(list_seeds(complex, curves, sheet, flood, &area, &seeds));
+  size_t looked_at = 0;
+  for (const uint32_t seed : seeds) {
+    if (flood.visits[seed] != 0) continue;
+    const Plane plane = plane_of(complex, seed);
+    TRY(flood_face(complex, curves, sheet, plane, seed, &flood));
+    looked_at += flood.member.size();
+    if (looked_at > k_members_per_checkpoint) {
+      TRY(context.checkpoint());
+      looked_at = 0;
+    }
+    if (!is_closed(complex, curves, flood, plane, seed)) continue;
+    const bool polygon = is_polygon(complex, curves, plane, seed, &flood);
+    for (const uint32_t t : flood.member) {
+      (*flatness)[t] = polygon ? Flatness::polygon : Flatness::plane;
+    }
+  }
+  return {};
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/flat_faces.cpp ======== */
+
+/* ======== begin src/flow/persistence.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_least_ratio = 1.0 + 1e-6;
+
+/* Components of the complement of the balls as the radius shrinks: union-find over the tetrahedra */
+/* and, as the last node, the outside. Each root knows the maximum of its component. */
+struct VoidForest {
+  explicit VoidForest(Context& context) : parent(context), maximum(context) {}
+
+  Array<uint32_t> parent;
+  Array<uint32_t> maximum;
+
+  uint32_t root_of(uint32_t node) {
+    while (parent[node] != node) {
+      parent[node] = parent[parent[node]];
+      node = parent[node];
+    }
+    return node;
+  }
+};
+
+static bool lower_maximum(const Complex& complex, uint32_t a, uint32_t b) {
+  const uint32_t outside = complex.tet_count();
+  if (a == outside || b == outside) return b == outside && a != outside;
+  const double fa = complex.tet_value[a];
+  const double fb = complex.tet_value[b];
+  return fa != fb ? fa < fb : a < b;
+}
+
+/* Values are not negative, so the order of their bits is theirs; turned over, the greatest is */
+/* first. */
+static uint64_t descending_bits(double value) {
+  uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return ~bits;
+}
+
+/* By decreasing value, then number; loose ones, whose first bit is cleared, before all others. */
+static Status sort_triangles(Context& context, const Complex& complex, Span<const uint8_t> loose,
+                             Array<BitsKey>* keys) {
+  const uint32_t count = complex.triangle_count();
+  TRY(keys->resize(count));
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t t = count - 1 - i;
+    const uint64_t bits = descending_bits(complex.triangle_value[t]);
+    (*keys)[i] = {!loose.empty() && loose[t] != 0 ? bits & ~(uint64_t{1} << 63) : bits, t};
+  }
+  return radix_sort(context, keys);
+}
+
+static Void describe_void(const Complex& complex, uint32_t creator, uint32_t maximum) {
+  const double cap = 0.375 * complex.diagonal * complex.diagonal;
+  const double f = complex.triangle_value[creator];
+  const double filling = smaller(complex.tet_value[maximum], cap);
+  const double capped = smaller(f, cap);
+  const double ratio = capped > 0.0 ? std::sqrt(filling / capped) : 1.0;
+  return {creator, maximum, std::sqrt(f), std::sqrt(filling), ratio, false};
+}
+
+static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
+                         Span<const uint8_t> loose, Persistence* persistence) {
+  Array<Void>& voids = persistence->voids;
+  voids.clear();
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (maximum_of[t] == k_none) continue;
+    Void one = describe_void(complex, t, maximum_of[t]);
+    one.loose = !loose.empty() && loose[t] != 0;
+    if (one.ratio > k_least_ratio) TRY(voids.push(one));
+  }
+  sort(voids.span(), [](const Void& a, const Void& b) {
+    return a.ratio != b.ratio ? a.ratio > b.ratio : a.creator < b.creator;
+  });
+  TRY(persistence->void_of.assign(complex.triangle_count(), k_none));
+  for (uint32_t i = 0; i < voids.size(); ++i) persistence->void_of[voids[i].creator] = i;
+  return {};
+}
+
+Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
+                        Span<const uint8_t> loose) {
+  constexpr size_t k_triangles_per_checkpoint = 1u << 16;
+  const uint32_t outside = complex.tet_count();
+  Array<BitsKey> keys(context);
+  Array<uint32_t> maximum_of(context);
+  VoidForest voids(context);
+  TRY(sort_triangles(context, complex, loose, &keys));
+  TRY(maximum_of.assign(complex.triangle_count(), k_none));
+  TRY(persistence->creator.assign(complex.triangle_count(), 0));
+  TRY(voids.parent.resize(outside + 1));
+  TRY(voids.maximum.resize(outside + 1));
+  for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
+  for (size_t i = 0; i < keys.size(); ++i) {
+    if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
+    const uint32_t t = keys[i].index;
+    const uint32_t a = complex.triangle_side[2 * t];
+    const uint32_t b = complex.triangle_side[2 * t + 1];
+    uint32_t low = voids.root_of(a == k_none ? outside : a);
+    uint32_t high = voids.root_of(b == k_none ? outside : b);
+    if (low == high) continue;
+    if (lower_maximum(complex, voids.maximum[high], voids.maximum[low])) swap_values(low, high);
+    persistence->creator[t] = 1;
+    maximum_of[t] = voids.maximum[low];
+    voids.parent[low] = high;
+  }
+  return list_voids(complex, maximum_of.span(), loose, persistence);
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/persistence.cpp ======== */
+
 /* ======== begin src/flow/topology.cpp ======== */
 namespace wireskin::flow {
 
 static constexpr uint32_t k_most_tries = 200;
 /* Of a wall's border that may lie off the curves. */
 static constexpr double k_loose_share = 0.1;
+/* Above the noise of rounding, for a void behind a polygon; and its volume, of the power 3/2 of the */
+/* polygon's area: two sheets in one plane are none. */
+static constexpr double k_least_polygon_ratio = 1.0005;
+static constexpr double k_least_polygon_volume = 1e-3;
 
 static uint32_t side_of(const Complex& complex, uint32_t triangle, uint32_t side) {
   const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
@@ -11186,6 +13195,19 @@ struct VoidTrial {
 
 }  /* namespace */
 
+/* The destroyers and the walls of the voids chosen. */
+static Status start_trial(const Complex& complex, const Persistence& persistence,
+                          Span<const uint32_t> chosen, VoidTrial* trial) {
+  TRY(start_sheet(complex, &trial->all));
+  TRY(trial->mark.assign(complex.triangle_count(), k_none));
+  TRY(trial->odd.assign(complex.edge_count(), 0));
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial->all);
+  }
+  for (const uint32_t v : chosen) add_to_sheet(complex, persistence.voids[v].creator, &trial->all);
+  return {};
+}
+
 enum class Verdict : uint8_t { accepted, unbounded, gone };
 
 /* Whether the creator's wall holds, together with those chosen before. */
@@ -11204,23 +13226,90 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_
   return {};
 }
 
+/* The volume of a room, and the area of a wall. */
+static double room_volume(const Complex& complex, Span<const uint32_t> label, uint32_t room) {
+  double six = 0.0;
+  for (uint32_t i = 0; i < complex.tet_count(); ++i) {
+    if (label[i] != room) continue;
+    const uint32_t* const v = &complex.tet[4 * size_t{i}];
+    const Vec3& a = complex.point[v[0]];
+    six += dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
+  }
+  return six / 6.0;
+}
+
+static double wall_area(const Complex& complex, Span<const uint32_t> wall) {
+  double twice = 0.0;
+  for (const uint32_t t : wall) {
+    const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+    const Vec3& a = complex.point[v[0]];
+    twice += length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
+  }
+  return 0.5 * twice;
+}
+
+/* Whether the wall tried last keeps the outside from a room worth the name. */
+static Status closes_room(const Complex& complex, const VoidTrial& trial, uint32_t creator,
+                          bool* closes) {
+  Array<uint32_t> label(trial.mark.context());
+  TRY(label_rooms(complex, trial.peeled, &label));
+  const uint32_t outside = label[complex.tet_count()];
+  const uint32_t a = label[side_of(complex, creator, 0)], b = label[side_of(complex, creator, 1)];
+  *closes = false;
+  if (a == b || (a != outside && b != outside)) return {};
+  const double area = wall_area(complex, trial.wall.span());
+  const double volume = room_volume(complex, label.span(), a == outside ? b : a);
+  *closes = volume > k_least_polygon_volume * area * std::sqrt(area);
+  return {};
+}
+
+static bool among(Span<const uint32_t> list, uint32_t i) {
+  for (const uint32_t other : list) {
+    if (other == i) return true;
+  }
+  return false;
+}
+
+/* A polygon is a face, however wide open a room would be without it: pyramids and plates are hardly */
+/* narrower at the base than within. Only towards the outside: within, such a face is no wall. */
+static Status close_polygons(Context& context, const Complex& complex, const CurveEdges& curves,
+                             Span<const Flatness> flatness, const Persistence& persistence,
+                             Array<uint32_t>* chosen) {
+  VoidTrial trial(context);
+  uint32_t tries = 0;
+  for (uint32_t i = 0; i < persistence.voids.size() && tries < k_most_tries; ++i) {
+    const Void& v = persistence.voids[i];
+    if (v.ratio < k_least_polygon_ratio) break;
+    if (v.loose || flatness[v.creator] != Flatness::polygon || among(chosen->span(), i)) continue;
+    if (tries++ == 0) TRY(start_trial(complex, persistence, chosen->span(), &trial));
+    TRY(context.checkpoint());
+    Verdict verdict = Verdict::gone;
+    bool closes = false;
+    TRY(try_void(complex, curves, v.creator, i, &trial, &verdict));
+    if (verdict == Verdict::accepted) TRY(closes_room(complex, trial, v.creator, &closes));
+    if (!closes) continue;
+    add_to_sheet(complex, v.creator, &trial.all);
+    TRY(chosen->push(i));
+  }
+  return {};
+}
+
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    const Persistence& persistence, const TopologyOptions& options,
-                    Array<uint32_t>* chosen) {
+                    Span<const Flatness> flatness, const Persistence& persistence,
+                    const TopologyOptions& options, Array<uint32_t>* chosen) {
   const bool automatic = options.voids < 0;
   const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
   VoidTrial trial(context);
   Array<uint32_t> unbounded(context);
-  TRY(start_sheet(complex, &trial.all));
-  TRY(trial.mark.assign(complex.triangle_count(), k_none));
-  TRY(trial.odd.assign(complex.edge_count(), 0));
   chosen->clear();
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial.all);
-  }
+  TRY(start_trial(complex, persistence, {}, &trial));
   for (uint32_t i = 0; i < persistence.voids.size() && i < k_most_tries; ++i) {
     if (automatic && persistence.voids[i].ratio < options.least_ratio) break;
     if (chosen->size() == wished) break;
+    if (persistence.voids[i].loose) {
+      TRY(unbounded.push(i));
+      continue;
+    }
     TRY(context.checkpoint());
     const uint32_t creator = persistence.voids[i].creator;
     Verdict verdict = Verdict::gone;
@@ -11230,7 +13319,12 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
     add_to_sheet(complex, creator, &trial.all);
     TRY(chosen->push(i));
   }
-  if (automatic) cut_at_gap(persistence, chosen);
+  if (automatic) {
+    cut_at_gap(persistence, chosen);
+    if (!flatness.empty()) {
+      TRY(close_polygons(context, complex, curves, flatness, persistence, chosen));
+    }
+  }
   /* Who asks for a number gets it as far as anything is caged at all. */
   for (size_t k = 0; !automatic && k < unbounded.size() && chosen->size() < wished; ++k) {
     TRY(chosen->push(unbounded[k]));
@@ -11260,12 +13354,8 @@ static Status open_handles(Context& context, const Complex& complex, const Curve
     if (finless.in[t] == 0) continue;
     begin_removal(&walls);
     remove_triangle(complex, curves, t, &walls);
-    peel_after(complex, curves, Protect::curves, &walls);
+    if (!peel_unless_bared(complex, curves, &walls)) continue;
     if (walls.removed.size() > 1000) TRY(context.checkpoint());
-    if (walls.bared) {
-      undo_removal(complex, &walls);
-      continue;
-    }
     begin_removal(&finless);
     for (const uint32_t gone : walls.removed) remove_triangle(complex, curves, gone, &finless);
     peel_after(complex, curves, Protect::nothing, &finless);
@@ -11284,39 +13374,71 @@ static bool has_open_border(const Complex& complex, const CurveEdges& curves, co
   return false;
 }
 
-/* One pass over the walls, greatest radius first; true in *any if one went. */
-static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
-                                Topology3* topology, bool* any) {
-  Sheet& walls = topology->walls;
-  Array<uint32_t> order(context), mark(context), wall(context);
-  TRY(mark.assign(complex.triangle_count(), k_none));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (walls.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
-  }
-  order_by_value(complex, &order);
-  *any = false;
-  for (uint32_t i = 0; i < order.size(); ++i) {
-    /* A mark of this pass: the wall was looked at from a triangle of greater radius. */
-    if (walls.in[order[i]] == 0 || mark[order[i]] != k_none) continue;
-    TRY(flood_patch(complex, curves, walls, order[i], i, mark.span(), &wall));
-    if (wall.size() > 1000) TRY(context.checkpoint());
-    if (!has_open_border(complex, curves, walls, wall.span())) continue;
-    begin_removal(&walls);
-    for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
-    peel_after(complex, curves, Protect::curves, &walls);
-    if (walls.bared) {
-      undo_removal(complex, &walls);
-    } else {
-      *any = true;
+enum class Settled : uint8_t { no, now, yes };
+
+/* The triangles of a wall from one of them on, as far as they are not settled; `whole` unless it */
+/* goes on in ones that are. */
+static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, const Sheet& walls,
+                              uint32_t triangle, Span<Settled> settled, Array<uint32_t>* wall,
+                              bool* whole) {
+  wall->clear();
+  *whole = true;
+  settled[triangle] = Settled::now;
+  TRY(wall->push(triangle));
+  for (size_t i = 0; i < wall->size(); ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{(*wall)[i]} + k];
+      if (walls.degree[e] != 2 || curves.by_curve(e)) continue;
+      for (const uint32_t t : complex.triangles_of(e)) {
+        if (walls.in[t] == 0 || settled[t] == Settled::now) continue;
+        *whole = *whole && settled[t] == Settled::no;
+        if (settled[t] == Settled::yes) continue;
+        settled[t] = Settled::now;
+        TRY(wall->push(t));
+      }
     }
   }
   return {};
 }
 
+/* Greatest radius first. A wall that must stay, as a curve would go bare without it, must so for */
+/* good, and with it all that joins it later, for there are only ever fewer triangles; and one whose */
+/* border is closed has no neighbour that it could join. So each is looked at once. */
+static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
+                                Topology3* topology) {
+  constexpr size_t k_work_per_checkpoint = 1u << 14;
+  Sheet& walls = topology->walls;
+  Array<uint32_t> order(context), wall(context);
+  Array<Settled> settled(context);
+  TRY(settled.assign(complex.triangle_count(), Settled::no));
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (walls.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+  }
+  order_by_value(complex, &order);
+  size_t work = 0;
+  for (const uint32_t seed : order) {
+    if (walls.in[seed] == 0 || settled[seed] != Settled::no) continue;
+    bool whole = false;
+    TRY(flood_unsettled(complex, curves, walls, seed, settled.span(), &wall, &whole));
+    work += wall.size();
+    if (whole && has_open_border(complex, curves, walls, wall.span())) {
+      begin_removal(&walls);
+      for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
+      peel_unless_bared(complex, curves, &walls);
+      work += walls.removed.size();
+    }
+    for (const uint32_t t : wall) settled[t] = Settled::yes;
+    if (work < k_work_per_checkpoint) continue;
+    TRY(context.checkpoint());
+    work = 0;
+  }
+  return {};
+}
+
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            const Persistence& persistence, const TopologyOptions& options,
-                            Topology3* topology) {
-  TRY(choose_voids(context, complex, curves, persistence, options, &topology->chosen));
+                            Span<const Flatness> flatness, const Persistence& persistence,
+                            const TopologyOptions& options, Topology3* topology) {
+  TRY(choose_voids(context, complex, curves, flatness, persistence, options, &topology->chosen));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
@@ -11329,11 +13451,7 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));
   TRY(open_handles(context, complex, curves, topology));
-  constexpr int k_most_passes = 20;
-  bool any = !options.open_walls;
-  for (int pass = 0; any && pass < k_most_passes; ++pass) {
-    TRY(remove_open_walls(context, complex, curves, topology, &any));
-  }
+  if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, topology));
   return {};
 }
 
@@ -11809,7 +13927,8 @@ static Status find_cells(Context& context, const Complex& complex, const CurveEd
                          const Topology3& topology, Cells* cells) {
   TRY(start_sheet(complex, &cells->sheet));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0 || persistence.void_of[t] != k_none) {
+    const uint32_t v = persistence.void_of[t];
+    if (persistence.creator[t] == 0 || (v != k_none && !persistence.voids[v].loose)) {
       add_to_sheet(complex, t, &cells->sheet);
     }
   }
@@ -11975,12 +14094,15 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   if (!(options.sampling > 0.0) && options.spacing > 0.0) {
     flow->step = smaller(flow->step, options.spacing);
   }
+  if (options.bend) TRY(bend_arcs(context, flow->step, &flow->arcs));
   TRY(sample_arcs(context, flow->arcs, flow->step, &flow->samples));
   TRY(find_tangents(flow->samples, &flow->tangents));
   TRY(context.enter(Stage::network));
   TRY(build_complex(context, flow->samples.position.span(), options.complex, &flow->complex));
   TRY(find_curve_edges(flow->complex, flow->samples, &flow->curves));
-  return find_persistence(context, flow->complex, &flow->persistence);
+  Array<uint8_t> loose(context);
+  return find_persistence_of_faces(context, flow->complex, flow->samples, flow->curves,
+                                   &flow->flatness, &flow->persistence, &loose);
 }
 
 /* Components of walls and curves, counted over all samples. */
@@ -12036,8 +14158,8 @@ static Status count_reconstruction(Context& context, const Flow& flow, Reconstru
 Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptions& options,
                    Reconstruction* result) {
   TRY(context.enter(Stage::patches));
-  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.persistence, options.topology,
-                           &result->topology));
+  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.flatness.span(),
+                           flow.persistence, options.topology, &result->topology));
   TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.persistence, flow.tangents,
                         options.thicken, &result->topology));
   TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.persistence,
@@ -12260,16 +14382,18 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
   return {};
 }
 
-/* Patches in crossings try less; true if one could. */
+/* Patches in crossings try less, and where there are more than were listed nothing at all; true if */
+/* one could. */
 static bool hold_back(const FlowMesh& mesh, Span<const uint32_t> pairs, Span<uint8_t> effort,
                       Span<uint8_t> again) {
+  const bool many = pairs.size() >= 2 * k_most_pairs;
   bool any = false;
   for (uint8_t& flag : again) flag = 0;
   for (const uint32_t t : pairs) {
     const uint32_t p = mesh.patch[t];
     if (again[p] != 0 || effort[p] == k_untouched) continue;
     again[p] = 1;
-    --effort[p];
+    effort[p] = many ? k_untouched : static_cast<uint8_t>(effort[p] - 1);
     any = true;
   }
   return any;
@@ -12418,13 +14542,20 @@ static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
   Array<Vec3> normal(surface->normal.context());
   TRY(normals_of_vertices(flow, given, &normal));
   for (uint32_t i = 0; i < samples.at.size(); ++i) {
-    const uint32_t step = samples.step[i], p = arcs.path[step], q = arcs.path[step + 1];
-    const double whole = arcs.along[step + 1] - arcs.along[step];
-    const double share = whole > 0.0 ? (samples.along[i] - arcs.along[step]) / whole : 0.0;
+    uint32_t before = samples.step[i], after = before + 1;
+    while (arcs.path[before] >= arcs.given) --before;
+    while (arcs.path[after] >= arcs.given) ++after;
+    const uint32_t p = arcs.path[before], q = arcs.path[after];
+    const double whole = arcs.along[after] - arcs.along[before];
+    const double share = whole > 0.0 ? (samples.along[i] - arcs.along[before]) / whole : 0.0;
     const double clamped = smaller(larger(share, 0.0), 1.0);
     const uint32_t v = vertex_of[samples.at[i]];
     surface->constraint_normal[v] = unit((1.0 - clamped) * normal[p] + clamped * normal[q]);
     (*offset)[v] = bent(arcs.vertex[p], arcs.vertex[q], normal[p], normal[q], clamped);
+    if (after == before + 1 || clamped == 0.0 || clamped == 1.0) continue;
+    /* The arc has left the segment already, as far as its samples told where to. */
+    const Vec3 straight = arcs.vertex[p] + clamped * (arcs.vertex[q] - arcs.vertex[p]);
+    (*offset)[v] += straight - surface->position[v];
   }
   return {};
 }
@@ -12506,22 +14637,110 @@ static void count_flow(const flow::Flow& flow, const flow::Reconstruction& recon
   for (const uint32_t curve : surface->vertex_curve) counts.free_vertices += curve == k_none;
 }
 
-/* Smooths, unless the smoothed surface would cross itself or has borders that nothing holds: then */
-/* all is as before, and *done stays false. */
+/* Edges that more than one triangle passes in the same direction. */
+static Status count_branches(Span<const uint32_t> triangles, Context& context, uint32_t* count) {
+  struct HalfEdge {
+    uint32_t from, to, at;
+  };
+  Array<HalfEdge> edges(context);
+  TRY(edges.reserve(triangles.size()));
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    edges.push_reserved({triangles[h], triangles[mesh::next_half_edge(h)], h});
+  }
+  sort(edges.span(), [](const HalfEdge& a, const HalfEdge& b) {
+    if (a.from != b.from) return a.from < b.from;
+    return a.to != b.to ? a.to < b.to : a.at < b.at;
+  });
+  *count = 0;
+  for (size_t i = 1, run = 1; i < edges.size(); ++i) {
+    run = edges[i].from == edges[i - 1].from && edges[i].to == edges[i - 1].to ? run + 1 : 1;
+    *count += run == 2;
+  }
+  return {};
+}
+
+/* Curve vertices whose normal points away from the side that the surface shows. */
+static Status count_opposed(Context& context, const Surface& surface, uint32_t* opposed,
+                            uint32_t* all) {
+  Array<Vec3> normal(context);
+  TRY(normal.resize(surface.position.size()));
+  mesh::vertex_normals(surface.position.span(), surface.triangle.span(), normal.span());
+  *opposed = *all = 0;
+  for (size_t v = 0; v < normal.size(); ++v) {
+    const Vec3& wish = surface.constraint_normal[v];
+    *all += wish != Vec3{};
+    *opposed += dot(wish, normal[v]) < 0.0;
+  }
+  return {};
+}
+
+/* What the smoothing changes, to be put back if it leads nowhere. */
+static Status smooth_or_restore(Context& context, const mesh::Topology& topology,
+                                Span<const Vec3> offset, smooth::Method method, Surface* surface,
+                                FlowOutcome* outcome) {
+  constexpr size_t k_most_pairs = 1000;
+  Array<Vec3> position(context);
+  Array<uint32_t> triangle(context), pairs(context);
+  TRY(position.copy(surface->position.span()));
+  TRY(triangle.copy(surface->triangle.span()));
+  for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
+  const Status status = smooth_flow_surface(context, topology, method, surface);
+  if (status.ok()) {
+    TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(),
+                             k_most_pairs, &pairs));
+    if (pairs.empty()) {
+      outcome->normals = NormalsUse::used;
+      return {};
+    }
+    outcome->normals = NormalsUse::crossing;
+    outcome->normals_places = static_cast<uint32_t>(pairs.size() / 2);
+  } else {
+    if (status.code != Code::not_positive_definite) return status;
+    outcome->normals = NormalsUse::too_thin;
+  }
+  surface->position = static_cast<Array<Vec3>&&>(position);
+  surface->triangle = static_cast<Array<uint32_t>&&>(triangle);
+  surface->patch_guarded.clear();
+  surface->counts.guarded_patches = 0;
+  surface->counts.residual = 0.0;
+  surface->counts.normal_deviation = {};
+  return {};
+}
+
+/* Smooths where the normals can be used; else all is as before, and the outcome says why. */
 static Status try_to_smooth(Context& context, const mesh::Topology& topology,
                             Span<const Vec3> offset, smooth::Method method, Surface* surface,
-                            bool* done) {
-  Array<Vec3> before(context);
-  Array<uint32_t> pairs(context);
+                            FlowOutcome* outcome) {
+  constexpr uint32_t k_most_opposed = 10;  /* one in so many */
+  uint32_t free = 0, opposed = 0, all = 0;
   for (size_t v = 0; v < topology.on_border.size(); ++v) {
-    if (topology.on_border[v] != 0 && surface->vertex_curve[v] == k_none) return {};
+    free += topology.on_border[v] != 0 && surface->vertex_curve[v] == k_none;
   }
-  TRY(before.copy(surface->position.span()));
-  for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
-  TRY(smooth_flow_surface(context, topology, method, surface));
-  TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(), 1, &pairs));
-  *done = pairs.empty();
-  if (!*done) surface->position = static_cast<Array<Vec3>&&>(before);
+  outcome->normals = NormalsUse::free_border;
+  outcome->normals_places = free;
+  if (free > 0) return {};
+  TRY(turn_to_normals(context, topology, surface));
+  TRY(count_opposed(context, *surface, &opposed, &all));
+  outcome->normals = NormalsUse::contradicting;
+  outcome->normals_places = opposed;
+  if (uint64_t{opposed} * k_most_opposed > all) return {};
+  outcome->normals_places = 0;
+  return smooth_or_restore(context, topology, offset, method, surface, outcome);
+}
+
+/* Whether the mesh allows the normals to be used. */
+static Status judge_mesh(Context& context, const FlowSettings& settings, bool measurable,
+                         const Surface& surface, FlowOutcome* outcome) {
+  if (settings.normal.empty()) {
+    const bool some = settings.bare_curves != k_none;
+    outcome->normals = some ? NormalsUse::incomplete : NormalsUse::none;
+    outcome->normals_places = some ? settings.bare_curves : 0;
+  } else if (!outcome->manifold) {
+    outcome->normals = NormalsUse::not_manifold;
+    return count_branches(surface.triangle.span(), context, &outcome->normals_places);
+  } else if (!measurable) {
+    outcome->normals = NormalsUse::too_thin;
+  }
   return {};
 }
 
@@ -12550,14 +14769,14 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   const bool measurable =
       outcome->manifold &&
       mesh::check_areas(surface->position.span(), surface->triangle.span()).ok();
-  if (!measurable || settings.normal.empty()) {
-    return measure_flow_surface(context, topology, measurable, surface);
+  TRY(judge_mesh(context, settings, measurable, *surface, outcome));
+  if (outcome->normals == NormalsUse::none && !settings.normal.empty()) {
+    TRY(try_to_smooth(context, topology, offset.span(), settings.method, surface, outcome));
   }
-  TRY(turn_to_normals(context, topology, surface));
-  TRY(try_to_smooth(context, topology, offset.span(), settings.method, surface,
-                    &outcome->smoothed));
-  if (outcome->smoothed) return {};
-  return measure_flow_surface(context, topology, measurable, surface);
+  if (outcome->normals != NormalsUse::used) {
+    TRY(measure_flow_surface(context, topology, measurable, surface));
+  }
+  return measure_given(flow, settings.given, outcome->vertex_of.span(), surface);
 }
 
 }  /* namespace wireskin */
@@ -12702,6 +14921,21 @@ Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* c
     if ((*component)[root] == k_none) (*component)[root] = counts->components++;
     (*component)[c] = (*component)[root];
   }
+  return {};
+}
+
+Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance) {
+  Array<double> lengths(wires.position.context());
+  TRY(lengths.reserve(wires.samples()));
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
+      const uint32_t j = wires.next(c, i);
+      if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
+    }
+  }
+  sort(lengths.span(), [](double a, double b) { return a < b; });
+  const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
+  *tolerance = median < 0.01 * diagonal ? median : 0.01 * diagonal;
   return {};
 }
 
@@ -13175,7 +15409,7 @@ Status fill_from_nodes(Wires* wires, FillCounts* counts) {
 
 Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
                          Array<Contradiction>* contradictions) {
-  constexpr double k_limit = k_pi / 4.0;
+  constexpr double k_limit = k_pi / 4.0, k_most_united = k_pi / 3.0;
   Context& context = wires->position.context();
   PointMembers members(context);
   Array<uint32_t> curve(context);
@@ -13185,9 +15419,11 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
     const Span<const uint32_t> own = members[p];
     if (own.size() < 2) continue;
     const Vec3 mean = mean_normal(*wires, curve.span(), own);
+    bool unite = joined[p] && mean != Vec3{};
     for (uint32_t i : own) {
       if (wires->sharp[curve[i]] || !has_normal(*wires, i)) continue;
       const double angle = angle_between(mean, wires->normal[i]);
+      unite = unite && angle <= k_most_united;
       const uint32_t other = i == own[0] ? own[1] : own[0];
       if (angle > k_limit || mean == Vec3{}) {
         TRY(contradictions->push({wires->origin[i], wires->origin[other],
@@ -13195,8 +15431,8 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
       }
     }
     for (uint32_t i : own) {
-      const bool unite = joined[p] && mean != Vec3{} && has_normal(*wires, i);
-      if (unite && !wires->sharp[curve[i]]) wires->normal[i] = mean;
+      const bool smooth = !wires->sharp[curve[i]] && has_normal(*wires, i);
+      if (unite && smooth) wires->normal[i] = mean;
     }
   }
   return {};
@@ -13318,14 +15554,18 @@ static EdgesAtPlace edges_at(const EdgeSet& edges, uint32_t edge, double part) {
   return result;
 }
 
+/* Whether none of the other edges at the two places come nearer. What differs by rounding only is */
+/* no nearer: at a sample that lies on the other curve either of its edges could win, and the one */
+/* that does not own the sample would be dropped. */
 static bool is_least(const EdgeSet& edges, uint32_t a, uint32_t b, const ChordApproach& chords) {
+  constexpr double k_rounding = 1e-13;  /* the extent is about one */
   const EdgesAtPlace at_a = edges_at(edges, a, chords.s), at_b = edges_at(edges, b, chords.t);
   for (uint32_t i = 0; i < at_a.count; ++i) {
     for (uint32_t k = 0; k < at_b.count; ++k) {
       if (i + k == 0) continue;
       const uint32_t e = at_a.edge[i], f = at_b.edge[k];
       if (edges.share_a_sample(e, f)) return false;
-      if (edges.chords(e, f).distance < chords.distance * (1.0 - 1e-9)) return false;
+      if (edges.chords(e, f).distance < chords.distance * (1.0 - 1e-9) - k_rounding) return false;
     }
   }
   return true;
@@ -13541,6 +15781,15 @@ static constexpr double k_connected = 4.0;
 /* Within one component insides are joined only this much nearer than the tolerance: where curves */
 /* cross, and not where they pass each other. A complete network rarely has any crossing left. */
 static constexpr double k_crossing = 0.25, k_crossing_in_complete = 0.01;
+/* The gap at a crossing tells how exact the curves are: a node that is farther away than this many */
+/* gaps, and than this part of the tolerance, is another place. */
+static constexpr double k_gaps_to_node = 3.0, k_exact = 0.05;
+/* The order in which approaches are joined. */
+static constexpr uint8_t k_settled = 0, k_crosses = 1, k_beside = 2;
+/* New nodes that are nearer along a curve than this part of the tolerance are one. */
+static constexpr double k_one_node = 0.01;
+/* Curves whose directions differ by less than this sine run along each other. */
+static constexpr double k_along = 0.17;
 
 /* A sample, or a place that became one. The beads of a curve are a list, the beads of a point a */
 /* ring. Beads of samples have the sample's index. */
@@ -13561,6 +15810,12 @@ struct BeadPlace {
   double behind = 0.0;
 };
 
+struct Meeting {
+  WirePlace a, b;
+  Vec3 at_a, at_b;
+  uint32_t free_ends;
+};
+
 class Snapper {
  public:
   Snapper(double tolerance, const Wires& wires)
@@ -13573,7 +15828,8 @@ class Snapper {
         stamp_(wires.position.context()),
         queue_(wires.position.context()),
         touched_(wires.position.context()),
-        sets_(wires.position.context()) {}
+        sets_(wires.position.context()),
+        parts_(wires.position.context()) {}
 
   Status run(SnapResult* result);
   Status write(Wires* out);
@@ -13591,21 +15847,35 @@ class Snapper {
   uint32_t curve_of(uint32_t b) const { return curve_[bead_[b].edge]; }
 
   BeadPlace locate(const WirePlace& place) const;
-  uint32_t special_near(const BeadPlace& place) const;
+  double node_reach(double gap) const;
+  Status plan(Span<const Approach> approaches, Array<uint8_t>* pass);
+  uint32_t special_near(const BeadPlace& place, double reach) const;
   WirePlace nearest_place(const WirePlace& near, const Vec3& target) const;
-  uint32_t promote(const WirePlace& place, const Vec3& other) const;
+  bool would_touch(uint32_t bead, const WirePlace& place) const;
+  uint32_t promote(const WirePlace& place, const WirePlace& other, const Vec3& at,
+                   double reach) const;
   Status relax(uint32_t bead, double distance, double radius);
-  Status connected(const BeadPlace& a, const BeadPlace& b, double radius, bool* result);
+  Status connected(const BeadPlace& a, const BeadPlace& b, double radius, bool own, bool* result);
   uint32_t make_bead(const WirePlace& place);
   Origin origin_of(const WirePlace& place) const;
-  double detour(uint32_t free_ends, double distance) const;
-  Status join(const Approach& approach, SnapResult* result);
+  double detour(uint32_t free_ends, double distance, double reach) const;
+  Vec3 direction_at(const WirePlace& place) const;
+  Vec3 normal_at(const WirePlace& place) const;
+  bool ends_on(const Approach& approach) const;
+  bool is_beside(const Approach& approach) const;
+  Meeting meet(const Approach& approach, double reach) const;
+  Status unite(const Meeting& meeting, SnapResult* result);
+  Status join(const Approach& approach, bool beside, SnapResult* result);
   Status count_open(Span<const Approach> approaches, uint32_t* open);
+  void unite_points(uint32_t a, uint32_t b);
+  void unite_close_nodes();
+  void list_beads(uint32_t c, Array<uint32_t>* order, Array<double>* arc);
   Vec3 target_of(uint32_t root, Span<uint32_t> seen, uint32_t mark) const;
   Status bend(Span<Vec3> displacement, Span<uint8_t> pinned);
 
   const Wires& wires_;
   double tolerance_;
+  bool exact_ = false;  /* most gaps are next to nothing */
   bool complete_ = false;
   Array<Bead> bead_;
   Array<uint32_t> curve_;      /* of each sample */
@@ -13618,6 +15888,7 @@ class Snapper {
   uint32_t steps_ = 0;
   Array<uint8_t> touched_;  /* of each bead that names a point: something came to it */
   DisjointSets sets_;
+  DisjointSets parts_;  /* of the components before snapping */
 };
 
 Status Snapper::string_beads(size_t approaches) {
@@ -13663,13 +15934,21 @@ BeadPlace Snapper::locate(const WirePlace& place) const {
   return {b, (place.part - bead_[b].part) * edge_length(place.edge)};
 }
 
-/* The nearest end or joined bead of the curve, no farther along it than the tolerance. */
-uint32_t Snapper::special_near(const BeadPlace& place) const {
-  const auto special = [this](uint32_t b) { return bead_[b].ring != b || is_end(b); };
+double Snapper::node_reach(double gap) const {
+  const double reach = k_exact * tolerance_ + k_gaps_to_node * gap;
+  return exact_ && reach < tolerance_ ? reach : tolerance_;
+}
+
+/* The nearest loose end of the curve, no farther along it than the tolerance, or joined bead within */
+/* `reach`. */
+uint32_t Snapper::special_near(const BeadPlace& place, double reach) const {
+  const auto special = [&](uint32_t b, double away) {
+    return bead_[b].ring != b ? away <= reach : is_end(b);
+  };
   uint32_t found = k_none;
   double away = place.behind, least = tolerance_;
   for (uint32_t b = place.bead; b != k_none && away <= least;) {
-    if (special(b)) {
+    if (special(b, away)) {
       found = b;
       least = away;
       break;
@@ -13680,7 +15959,7 @@ uint32_t Snapper::special_near(const BeadPlace& place) const {
   }
   away = bead_[place.bead].to_next - place.behind;
   for (uint32_t b = bead_[place.bead].next; b != k_none && away < least; b = bead_[b].next) {
-    if (special(b)) return b;
+    if (special(b, away)) return b;
     away += bead_[b].to_next;
     if (b == place.bead) break;
   }
@@ -13718,11 +15997,28 @@ WirePlace Snapper::nearest_place(const WirePlace& near, const Vec3& target) cons
   return best;
 }
 
-/* The end or node that takes part instead of the place; k_none if there is none. */
-uint32_t Snapper::promote(const WirePlace& place, const Vec3& other) const {
-  const uint32_t b = special_near(locate(place));
-  if (b == k_none || !(length(bead_[b].position - other) <= tolerance_)) return k_none;
-  return b;
+/* Whether the curve of `place`, coming to the node of bead b, would meet a curve there that runs */
+/* along it. */
+bool Snapper::would_touch(uint32_t b, const WirePlace& place) const {
+  const Vec3 own = unit(direction_at(place));
+  for (uint32_t other = bead_[b].ring; other != b; other = bead_[other].ring) {
+    if (curve_of(other) == curve_[place.edge]) continue;
+    const Vec3 there = unit(direction_at({bead_[other].edge, bead_[other].part}));
+    if (length(cross(own, there)) < k_along) return true;
+  }
+  return false;
+}
+
+/* The end or node near `place` that takes part instead of it; k_none if there is none. `other`: the */
+/* place that comes to it, at the point `at`. */
+uint32_t Snapper::promote(const WirePlace& place, const WirePlace& other, const Vec3& at,
+                          double reach) const {
+  const uint32_t b = special_near(locate(place), reach);
+  if (b == k_none) return k_none;
+  const double gap = length(bead_[b].position - at);
+  if (is_free_end(b)) return gap <= tolerance_ ? b : k_none;
+  if (!(gap <= reach)) return k_none;
+  return exact_ && gap > k_one_node * tolerance_ && would_touch(b, other) ? k_none : b;
 }
 
 Status Snapper::relax(uint32_t bead, double distance, double radius) {
@@ -13734,7 +16030,10 @@ Status Snapper::relax(uint32_t bead, double distance, double radius) {
   return queue_.push(bead);
 }
 
-Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius, bool* result) {
+/* Whether the network leads from a to b within `radius`; with `own` on their own curves alone. */
+Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius, bool own,
+                          bool* result) {
+  const uint32_t curve_a = curve_of(a.bead), curve_b = curve_of(b.bead);
   ++now_;
   queue_.clear();
   TRY(relax(a.bead, a.behind, radius));
@@ -13742,9 +16041,10 @@ Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius,
   for (size_t k = 0; k < queue_.size(); ++k) {
     const uint32_t u = queue_[k], before = bead_[u].previous;
     const double distance = best_[u];
+    TRY(relax(bead_[u].ring, distance, radius));
+    if (own && curve_of(u) != curve_a && curve_of(u) != curve_b) continue;
     TRY(relax(bead_[u].next, distance + bead_[u].to_next, radius));
     if (before != k_none) TRY(relax(before, distance + bead_[before].to_next, radius));
-    TRY(relax(bead_[u].ring, distance, radius));
   }
   const auto reached = [&](uint32_t bead, double behind) {
     return bead != k_none && stamp_[bead] == now_ && best_[bead] + behind <= radius;
@@ -13789,63 +16089,133 @@ Origin Snapper::origin_of(const WirePlace& place) const {
 
 /* How long a way through the network counts as a connection. A loose end is there to be joined: */
 /* only the tip of a curve that has crossed the other one (at 30 degrees or more) already is not. */
-double Snapper::detour(uint32_t free_ends, double distance) const {
-  if (free_ends == 0) return k_connected * tolerance_;
+double Snapper::detour(uint32_t free_ends, double distance, double reach) const {
+  if (free_ends == 0) return k_connected * reach;
   const double factor = free_ends == 1 ? 4.0 : 2.0, least = free_ends == 1 ? 1.0 : 0.5;
   return factor * distance > least * tolerance_ ? factor * distance : least * tolerance_;
 }
 
-Status Snapper::join(const Approach& approach, SnapResult* result) {
-  WirePlace a = approach.a, b = approach.b;
-  const auto at_bead = [this](uint32_t bead) {
-    return WirePlace{bead_[bead].edge, bead_[bead].part};
+/* Along the curve, of any length. */
+Vec3 Snapper::direction_at(const WirePlace& place) const {
+  constexpr double k_step = 1.0 / 16.0;
+  const uint32_t c = curve_[place.edge], before = wires_.previous(c, place.edge);
+  if (wires_.next(c, place.edge) == k_none) {
+    return wires_.position[place.edge] - point_of_place(wires_, c, {before, 1.0 - k_step});
+  }
+  const double step = place.part + k_step < 1.0 ? k_step : -k_step;
+  const Vec3 there = point_of_place(wires_, c, {place.edge, place.part + step});
+  return (1.0 / step) * (there - point_of_place(wires_, c, place));
+}
+
+/* Not unit; zero where it is not known. */
+Vec3 Snapper::normal_at(const WirePlace& place) const {
+  const uint32_t next = wires_.next(curve_[place.edge], place.edge);
+  const Vec3& own = wires_.normal[place.edge];
+  if (place.part == 0.0 || next == k_none) return own;
+  return (1.0 - place.part) * own + place.part * wires_.normal[next];
+}
+
+/* Whether an end of a curve clearly meets the other curve. */
+bool Snapper::ends_on(const Approach& approach) const {
+  const double near = k_crossing * tolerance_;
+  const auto near_end = [&](const WirePlace& place, const Vec3& at) {
+    const uint32_t c = curve_[place.edge];
+    if (wires_.closed[c]) return false;
+    const Vec3 &first = wires_.position[wires_.start[c]],
+               &last = wires_.position[wires_.start[c + 1] - 1];
+    return length(first - at) <= near || length(last - at) <= near;
   };
-  Vec3 at_a = approach.at_a, at_b = approach.at_b;
-  uint32_t x = promote(a, at_b);
+  return approach.distance <= near &&
+         (near_end(approach.a, approach.at_a) || near_end(approach.b, approach.at_b));
+}
+
+/* Whether the curves pass each other side by side there instead of crossing: they run along each */
+/* other, or the gap between them lies in the surface. */
+bool Snapper::is_beside(const Approach& approach) const {
+  if (approach.distance <= k_exact * tolerance_) return false;
+  const Vec3 gap = unit(approach.at_b - approach.at_a);
+  const Vec3 along_a = unit(direction_at(approach.a)), along_b = unit(direction_at(approach.b));
+  const auto square = [](double x) { return x * x; };
+  /* One goes on where the other one ends. */
+  if (square(dot(gap, along_a)) + square(dot(gap, along_b)) > 0.5) return false;
+  const Vec3 a = normal_at(approach.a), b = normal_at(approach.b);
+  if (a != Vec3{} && b != Vec3{}) {
+    return square(dot(gap, unit(a))) + square(dot(gap, unit(b))) < 0.5;
+  }
+  return length(cross(along_a, along_b)) < k_along;
+}
+
+/* The places that are to be joined: those of the approach, or the ends and nodes near them. */
+Meeting Snapper::meet(const Approach& approach, double reach) const {
+  Meeting m = {approach.a, approach.b, approach.at_a, approach.at_b, 0};
+  const auto take = [&](uint32_t bead, WirePlace* place, Vec3* at) {
+    *place = {bead_[bead].edge, bead_[bead].part};
+    *at = bead_[bead].position;
+    m.free_ends += is_free_end(bead);
+  };
+  const auto follow = [this](const Vec3& target, WirePlace* place, Vec3* at) {
+    *place = nearest_place(*place, target);
+    *at = point_of_place(wires_, curve_[place->edge], *place);
+  };
+  const uint32_t x = promote(m.a, m.b, m.at_b, reach);
   if (x != k_none) {
-    a = at_bead(x);
-    at_a = bead_[x].position;
-    b = nearest_place(b, at_a);
-    at_b = point_of_place(wires_, curve_[b.edge], b);
+    take(x, &m.a, &m.at_a);
+    follow(m.at_a, &m.b, &m.at_b);
   }
-  const uint32_t y = promote(b, at_a);
-  if (y != k_none) {
-    b = at_bead(y);
-    at_b = bead_[y].position;
-    if (x == k_none) {
-      a = nearest_place(a, at_b);
-      at_a = point_of_place(wires_, curve_[a.edge], a);
-      x = promote(a, at_b);
-      if (x != k_none) {
-        a = at_bead(x);
-        at_a = bead_[x].position;
-      }
-    }
-  }
-  const double distance = length(at_a - at_b);
-  if (!(distance <= tolerance_)) return {};
-  const uint32_t free_ends = (x != k_none && is_free_end(x)) + (y != k_none && is_free_end(y));
-  if (free_ends == 0 && component_[curve_[a.edge]] == component_[curve_[b.edge]] &&
-      distance > (complete_ ? k_crossing_in_complete : k_crossing) * tolerance_) {
-    return {};
-  }
-  bool together = false;
-  TRY(connected(locate(a), locate(b), detour(free_ends, distance), &together));
-  if (together) return {};
-  x = make_bead(a);
-  const uint32_t z = make_bead(b);
-  const uint32_t from = sets_.find(x), to = sets_.find(z);
-  if (from == to) return {};
-  Snap snap = {origin_of(a), origin_of(b), at_a, at_b, distance, SnapKind::inside_inside};
+  const uint32_t y = promote(m.b, m.a, m.at_a, reach);
+  if (y == k_none) return m;
+  take(y, &m.b, &m.at_b);
+  if (x != k_none) return m;
+  follow(m.at_b, &m.a, &m.at_a);
+  const uint32_t again = promote(m.a, m.b, m.at_b, reach);
+  if (again != k_none) take(again, &m.a, &m.at_a);
+  return m;
+}
+
+void Snapper::unite_points(uint32_t a, uint32_t b) {
+  if (!sets_.unite(a, b)) return;
+  const uint32_t kept = bead_[a].ring;
+  bead_[a].ring = bead_[b].ring;
+  bead_[b].ring = kept;
+  touched_[sets_.find(a)] = 1;
+}
+
+Status Snapper::unite(const Meeting& m, SnapResult* result) {
+  const uint32_t x = make_bead(m.a), z = make_bead(m.b);
+  if (sets_.find(x) == sets_.find(z)) return {};
+  Snap snap = {origin_of(m.a), origin_of(m.b), m.at_a, m.at_b, 0.0, SnapKind::inside_inside};
+  snap.distance = length(m.at_a - m.at_b);
   if (is_end(x) || is_end(z)) snap.kind = SnapKind::end_inside;
   if (is_end(x) && is_end(z)) snap.kind = SnapKind::end_end;
   TRY(result->snaps.push(snap));
-  sets_.unite(x, z);
-  const uint32_t kept = bead_[x].ring;
-  bead_[x].ring = bead_[z].ring;
-  bead_[z].ring = kept;
-  touched_[sets_.find(x)] = 1;
+  unite_points(x, z);
+  parts_.unite(component_[curve_of(x)], component_[curve_of(z)]);
   return {};
+}
+
+/* Curves that pass side by side are joined only where nothing else joins their components. Where */
+/* curves cross they share a point, however near the ways round by other curves are; so do an end */
+/* and the curve on which it lies. */
+Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) {
+  const double reach = node_reach(approach.distance);
+  const Meeting m = meet(approach, reach);
+  const double distance = length(m.at_a - m.at_b);
+  if (!(distance <= tolerance_)) return {};
+  const uint32_t a = component_[curve_[m.a.edge]], b = component_[curve_[m.b.edge]];
+  const double crossing = (complete_ ? k_crossing_in_complete : k_crossing) * tolerance_;
+  if (m.free_ends == 0) {
+    if (a == b && distance > crossing) return {};
+    if (beside && parts_.find(a) == parts_.find(b)) return {};
+  }
+  bool together = false;
+  const bool on_it = exact_ && m.free_ends == 1 && distance <= k_exact * tolerance_;
+  TRY(connected(locate(m.a), locate(m.b), detour(m.free_ends, distance, reach), on_it, &together));
+  if (!together) return unite(m, result);
+  if (!exact_ || m.free_ends > 0 || beside || approach.distance > crossing) return {};
+  TRY(connected(locate(approach.a), locate(approach.b), detour(0, distance, reach), true,
+                &together));
+  if (together) return {};
+  return unite({approach.a, approach.b, approach.at_a, approach.at_b, 0}, result);
 }
 
 /* Pairs of components that come nearer to each other than the tolerance. */
@@ -13870,6 +16240,24 @@ Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
   return {};
 }
 
+/* In which pass each approach is joined. Of exact curves, ends that clearly meet a curve are */
+/* settled first, or crossings near them would take them away; curves side by side come last, when */
+/* all is joined that crosses. Of others what is nearest is what is likeliest. */
+Status Snapper::plan(Span<const Approach> approaches, Array<uint8_t>* pass) {
+  TRY(pass->resize(approaches.size()));
+  size_t others = 0, exact = 0;
+  for (size_t k = 0; k < approaches.size(); ++k) {
+    const Approach& a = approaches[k];
+    (*pass)[k] = is_beside(a) ? k_beside : ends_on(a) ? k_settled : k_crosses;
+    if ((*pass)[k] == k_beside) continue;
+    ++others;
+    exact += a.distance <= k_exact * tolerance_;
+  }
+  exact_ = !complete_ && 4 * exact >= 3 * others;
+  for (size_t k = 0; k < pass->size() && !exact_; ++k) (*pass)[k] = k_crosses;
+  return {};
+}
+
 Status Snapper::run(SnapResult* result) {
   WireCounts counts;
   Array<Approach> approaches(context());
@@ -13886,10 +16274,16 @@ Status Snapper::run(SnapResult* result) {
   });
   TRY(string_beads(approaches.size()));
   TRY(count_open(approaches.span(), &result->open_before));
-  for (size_t k = 0; k < approaches.size(); ++k) {
-    TRY(join(approaches[k], result));
-    if (k % 64 == 63) TRY(context().checkpoint());
+  Array<uint8_t> pass(context());
+  TRY(parts_.reset(counts.components));
+  TRY(plan(approaches.span(), &pass));
+  for (uint8_t now = k_settled; now <= k_beside; ++now) {
+    for (size_t k = 0; k < approaches.size(); ++k) {
+      if (pass[k] == now) TRY(join(approaches[k], now == k_beside, result));
+      if (k % 64 == 63) TRY(context().checkpoint());
+    }
   }
+  unite_close_nodes();
   return count_open(approaches.span(), &result->open_after);
 }
 
@@ -13951,16 +16345,69 @@ static Vec3 normal_between(const Vec3& a, const Vec3& b, double part) {
   return sum > 0.0 ? unit((1.0 - part) * a + part * b) : Vec3{};
 }
 
+/* New nodes next to each other on a curve, as where many curves meet in about one point. */
+void Snapper::unite_close_nodes() {
+  for (uint32_t c = 0; c < wires_.curves(); ++c) {
+    const uint32_t first = wires_.start[c];
+    uint32_t last = k_none, b = first;
+    double away = 0.0;
+    do {
+      if (bead_[b].ring != b) {
+        const bool near = last != k_none && away <= k_one_node * tolerance_;
+        if (near && (touched_[sets_.find(last)] || touched_[sets_.find(b)])) unite_points(last, b);
+        last = b;
+        away = 0.0;
+      }
+      away += bead_[b].to_next;
+      b = bead_[b].next;
+    } while (b != k_none && b != first);
+  }
+}
+
+/* The beads of a curve without those on a short way from a new node back to itself. */
+void Snapper::list_beads(uint32_t c, Array<uint32_t>* order, Array<double>* arc) {
+  order->clear(), arc->clear();
+  double length = 0.0;
+  const auto take_back = [&](uint32_t root, double from) {
+    for (size_t k = order->size(); k-- > 0 && from - (*arc)[k] <= 2.0 * tolerance_;) {
+      if (sets_.find((*order)[k]) != root) continue;
+      order->shrink(k + 1), arc->shrink(k + 1);
+      return true;
+    }
+    return false;
+  };
+  for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
+    if (b == wires_.start[c] && !order->empty()) break;
+    if (!touched_[sets_.find(b)] || !take_back(sets_.find(b), length)) {
+      order->push_reserved(b), arc->push_reserved(length);
+    }
+    length += bead_[b].to_next;
+  }
+  const uint32_t first = (*order)[0];
+  if (wires_.closed[c] && touched_[sets_.find(first)] && order->size() > 1) {
+    if (take_back(sets_.find(first), length) && order->size() > 1) order->pop();
+  }
+  if (order->size() >= (wires_.closed[c] ? 3 : 2)) return;
+  order->clear();  /* nothing would be left */
+  for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
+    if (b == wires_.start[c] && !order->empty()) break;
+    order->push_reserved(b);
+  }
+}
+
 /* All points that were united come to their place; samples between them follow. */
 Status Snapper::write(Wires* out) {
   Array<Vec3> displacement(context()), target(context());
   Array<uint8_t> pinned(context());
-  Array<uint32_t> seen(context()), name(context());
+  Array<uint32_t> seen(context()), name(context()), order(context());
+  Array<double> arc(context());
   const uint32_t n = static_cast<uint32_t>(bead_.size());
   TRY(displacement.assign(n, Vec3{}));
   TRY(target.resize(n));
   TRY(pinned.assign(n, 0));
   TRY(name.assign(n, k_none));
+  TRY(order.reserve(n));
+  TRY(arc.reserve(n));
   TRY(seen.assign(wires_.points + size_t{n}, k_none));
   for (uint32_t b = 0; b < n; ++b) {
     const uint32_t root = sets_.find(b);
@@ -13975,8 +16422,8 @@ Status Snapper::write(Wires* out) {
   out->start.push_reserved(0);
   out->points = 0;
   for (uint32_t c = 0; c < wires_.curves(); ++c) {
-    for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
-      if (b == wires_.start[c] && out->samples() > out->start[c]) break;
+    list_beads(c, &order, &arc);
+    for (const uint32_t b : order) {
       const Bead& bead = bead_[b];
       const uint32_t i = bead.edge, root = sets_.find(b);
       if (name[root] == k_none) name[root] = out->points++;
@@ -14001,21 +16448,6 @@ Status Snapper::write(Wires* out) {
     out->soft.push_reserved(wires_.soft[c]);
     out->start.push_reserved(out->samples());
   }
-  return {};
-}
-
-Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance) {
-  Array<double> lengths(wires.position.context());
-  TRY(lengths.reserve(wires.samples()));
-  for (uint32_t c = 0; c < wires.curves(); ++c) {
-    for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
-      const uint32_t j = wires.next(c, i);
-      if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
-    }
-  }
-  sort(lengths.span(), [](double a, double b) { return a < b; });
-  const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
-  *tolerance = median < 0.01 * diagonal ? median : 0.01 * diagonal;
   return {};
 }
 
@@ -14112,6 +16544,374 @@ Status connect_wires(Context& context, const ConnectOptions& options, double dia
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/connect.cpp ======== */
+
+/* ======== begin src/api/network_view.cpp ======== */
+namespace wireskin::api {
+
+/* Node numbers of the result: the least of the caller's at each point; at points with more than one */
+/* sample and none of his, fresh ones. */
+struct NodeNumbers {
+  Array<uint32_t> of_sample;
+  uint32_t least_fresh = k_none, most_fresh = 0;
+
+  explicit NodeNumbers(Context& context) : of_sample(context) {}
+};
+
+/* The next number from `candidate` on that is not in the ascending list. */
+static uint32_t unused_number(Span<const uint32_t> used, size_t* at, uint32_t candidate) {
+  while (*at < used.size() && used[*at] <= candidate) {
+    if (used[(*at)++] == candidate) ++candidate;
+  }
+  return candidate;
+}
+
+static Status number_nodes(Context& context, const network::Wires& wires, NodeNumbers* numbers) {
+  Array<uint32_t> least_number(context), members(context), used(context);
+  TRY(least_number.assign(wires.points, k_none));
+  TRY(members.assign(wires.points, 0));
+  TRY(used.reserve(wires.samples()));
+  TRY(numbers->of_sample.resize(wires.samples()));
+  for (uint32_t i = 0; i < wires.samples(); ++i) {
+    uint32_t& number = least_number[wires.point[i]];
+    number = wires.number[i] < number ? wires.number[i] : number;
+    ++members[wires.point[i]];
+    if (wires.number[i] != k_none) used.push_reserved(wires.number[i]);
+  }
+  sort(used.span(), [](uint32_t a, uint32_t b) { return a < b; });
+  /* Above all of the caller's where there is room, else in the gaps between them. */
+  const uint32_t most = used.empty() ? 0 : used.back();
+  uint32_t next = used.empty() ? 0 : most < k_none - 1 - wires.points ? most + 1 : 0;
+  size_t at = next > most ? used.size() : 0;
+  for (uint32_t p = 0; p < wires.points; ++p) {
+    if (members[p] < 2 || least_number[p] != k_none) continue;
+    next = unused_number(used.span(), &at, next);
+    numbers->least_fresh = next < numbers->least_fresh ? next : numbers->least_fresh;
+    numbers->most_fresh = next;
+    least_number[p] = next++;
+  }
+  for (uint32_t i = 0; i < wires.samples(); ++i) {
+    const uint32_t p = wires.point[i];
+    numbers->of_sample[i] = members[p] < 2 ? wires.number[i] : least_number[p];
+  }
+  return {};
+}
+
+/* Normals that did not change leave as they came: not made unit, or another call would make them */
+/* unit once more and round again. `given` may be null (no curves to compare with). */
+static Vec3 normal_as_given(const wsk_curve* given, const network::Origin& origin,
+                            const Vec3& normal) {
+  if (given == nullptr || origin.part != 0.0 || normal == Vec3{}) return normal;
+  const wsk_curve& curve = given[origin.curve];
+  const Rows sides[2] = {{curve.normals, curve.normal_stride},
+                         {curve.normals_right, curve.normal_right_stride}};
+  for (int side = 0; side < (curve.sharp != 0 ? 2 : 1); ++side) {
+    if (sides[side].data == nullptr) continue;
+    Vec3 unit_given;
+    const Vec3 raw = sides[side][origin.sample];
+    if (greatest_component(raw) == 0.0) continue;
+    if (!read_normal(sides[side], origin.sample, {}, &unit_given).ok()) continue;
+    if (unit_given == normal) return raw;
+    if (-unit_given == normal) return -raw;
+  }
+  return normal;
+}
+
+/* Where the arrays of the view stand in the block. */
+struct NetworkLayout {
+  size_t curves, first, positions, normals, right, nodes, given_curve, given_sample, given_part;
+  size_t snaps, contradictions, bytes;
+
+  NetworkLayout(const network::Wires& wires, size_t snap_count, size_t contradiction_count) {
+    Layout layout(sizeof(wsk_network));
+    const size_t n = wires.samples(), m = wires.curves();
+    curves = layout.add_array<wsk_curve>(m);
+    first = layout.add_array<uint32_t>(m + 1);
+    positions = layout.add_array<double>(3 * n);
+    normals = layout.add_array<double>(3 * n);
+    right = layout.add_array<double>(3 * wires.right.size());
+    nodes = layout.add_array<uint32_t>(n);
+    given_curve = layout.add_array<uint32_t>(n);
+    given_sample = layout.add_array<uint32_t>(n);
+    given_part = layout.add_array<double>(n);
+    snaps = layout.add_array<wsk_snap>(snap_count);
+    contradictions = layout.add_array<wsk_contradiction>(contradiction_count);
+    bytes = layout.bytes();
+  }
+};
+
+static wsk_place place_of(const network::Origin& origin, const Vec3& position) {
+  return {origin.curve, origin.sample, origin.part, {position.x, position.y, position.z}};
+}
+
+static const double* normals_or_null(const double* normals, size_t first, size_t count) {
+  for (size_t i = 3 * first; i < 3 * (first + count); ++i) {
+    if (normals[i] != 0.0) return normals + 3 * first;
+  }
+  return nullptr;
+}
+
+/* The curves of the view, which point into the arrays of the block. */
+static const wsk_curve* write_curves(const network::Wires& wires, const NetworkLayout& layout,
+                                     unsigned char* block) {
+  wsk_curve* curves = reinterpret_cast<wsk_curve*>(block + layout.curves);
+  const double* positions = reinterpret_cast<const double*>(block + layout.positions);
+  const double* normals = reinterpret_cast<const double*>(block + layout.normals);
+  const double* right = reinterpret_cast<const double*>(block + layout.right);
+  const uint32_t* nodes = reinterpret_cast<const uint32_t*>(block + layout.nodes);
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    const uint32_t first = wires.start[c], count = wires.size(c);
+    wsk_curve curve = {};
+    curve.sample_count = count;
+    curve.positions = positions + 3 * size_t{first};
+    curve.normals = normals_or_null(normals, first, count);
+    curve.nodes = nodes + first;
+    curve.closed = wires.closed[c];
+    curve.boundary = wires.boundary[c];
+    curve.soft = wires.soft[c];
+    curve.sharp = wires.sharp[c];
+    if (curve.sharp != 0) curve.normals_right = normals_or_null(right, first, count);
+    curves[c] = curve;
+  }
+  return curves;
+}
+
+static wsk_network_counts counts_of(const network::WireCounts& counts, uint32_t open_gaps) {
+  return {counts.curves,   counts.samples,    counts.nodes,
+          counts.dangling, counts.components, open_gaps};
+}
+
+static void write_events(const network::ConnectResult& result, const Scale& lengths,
+                         const NetworkLayout& layout, unsigned char* block,
+                         wsk_network_view* view) {
+  wsk_snap* snaps = reinterpret_cast<wsk_snap*>(block + layout.snaps);
+  for (size_t k = 0; k < result.snapping.snaps.size(); ++k) {
+    const network::Snap& snap = result.snapping.snaps[k];
+    snaps[k] = {place_of(snap.a, lengths(snap.at_a)), place_of(snap.b, lengths(snap.at_b)),
+                lengths(snap.distance), static_cast<wsk_snap_kind>(snap.kind)};
+  }
+  wsk_contradiction* contradictions =
+      reinterpret_cast<wsk_contradiction*>(block + layout.contradictions);
+  for (size_t k = 0; k < result.contradictions.size(); ++k) {
+    const network::Contradiction& c = result.contradictions[k];
+    contradictions[k] = {place_of(c.a, {}), place_of(c.b, {}), c.angle * (180.0 / k_pi)};
+  }
+  view->snaps = snaps;
+  view->contradictions = contradictions;
+  view->snap_count = static_cast<uint32_t>(result.snapping.snaps.size());
+  view->contradiction_count = static_cast<uint32_t>(result.contradictions.size());
+  view->before = counts_of(result.before, result.snapping.open_before);
+  view->after = counts_of(result.after, result.snapping.open_after);
+  view->tolerance = lengths(result.tolerance);
+  view->filled_normals = result.normals.filled;
+  view->turned_normals = result.turned;
+  view->curves_without_normals = result.normals.missing;
+}
+
+/* The normals of sample i on both sides, as far as there are two. */
+static void write_normals(const network::Wires& wires, const NetworkLayout& layout,
+                          const wsk_curve* given, uint32_t i, unsigned char* block) {
+  double* normals = reinterpret_cast<double*>(block + layout.normals);
+  double* right = reinterpret_cast<double*>(block + layout.right);
+  const Vec3 n = normal_as_given(given, wires.origin[i], wires.normal[i]);
+  normals[3 * i] = n.x, normals[3 * i + 1] = n.y, normals[3 * i + 2] = n.z;
+  if (wires.right.empty()) return;
+  const Vec3 r = normal_as_given(given, wires.origin[i], wires.right[i]);
+  right[3 * i] = r.x, right[3 * i + 1] = r.y, right[3 * i + 2] = r.z;
+}
+
+static void write_samples(const network::Wires& wires, const NodeNumbers& numbers,
+                          const NetworkLayout& layout, const wsk_curve* given, unsigned char* block,
+                          wsk_network_view* view) {
+  uint32_t* nodes = reinterpret_cast<uint32_t*>(block + layout.nodes);
+  uint32_t* given_curve = reinterpret_cast<uint32_t*>(block + layout.given_curve);
+  uint32_t* given_sample = reinterpret_cast<uint32_t*>(block + layout.given_sample);
+  double* given_part = reinterpret_cast<double*>(block + layout.given_part);
+  for (uint32_t i = 0; i < wires.samples(); ++i) {
+    const network::Origin& origin = wires.origin[i];
+    write_normals(wires, layout, given, i, block);
+    nodes[i] = numbers.of_sample[i];
+    given_curve[i] = origin.curve;
+    given_sample[i] = origin.sample;
+    given_part[i] = origin.part;
+  }
+  uint32_t* first = reinterpret_cast<uint32_t*>(block + layout.first);
+  for (size_t c = 0; c < wires.start.size(); ++c) first[c] = wires.start[c];
+  view->first_sample = first;
+  view->given_curve = given_curve;
+  view->given_sample = given_sample;
+  view->given_part = given_part;
+}
+
+Status make_network(Context& context, const network::Wires& wires,
+                    const network::ConnectResult& result, int exponent, const wsk_curve* given,
+                    wsk_network** out) {
+  NodeNumbers numbers(context);
+  TRY(context.enter(Stage::result));
+  TRY(number_nodes(context, wires, &numbers));
+  const NetworkLayout layout(wires, result.snapping.snaps.size(), result.contradictions.size());
+  void* memory = nullptr;
+  TRY(context.allocate(layout.bytes, 1, &memory));
+  unsigned char* block = static_cast<unsigned char*>(memory);
+  const Scale lengths(exponent);
+  wsk_network* handle = static_cast<wsk_network*>(memory);
+  handle->allocator = context.allocator();
+  handle->bytes = layout.bytes;
+  handle->least_fresh = numbers.least_fresh;
+  handle->most_fresh = numbers.most_fresh;
+  wsk_network_view& view = handle->view;
+  view = {};
+  view.size = sizeof view;
+  view.curve_count = wires.curves();
+  view.sample_count = wires.samples();
+  write_vectors(block, layout.positions, wires.position.span(), lengths);
+  write_samples(wires, numbers, layout, given, block, &view);
+  view.curves = write_curves(wires, layout, block);
+  write_events(result, lengths, layout, block, &view);
+  *out = handle;
+  return context.progress(1.0);
+}
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/network_view.cpp ======== */
+
+/* ======== begin src/api/raw_curves.cpp ======== */
+namespace wireskin::api {
+
+/* A unit normal, or zero where the caller has none. */
+static Status read_known_normal(const double* data, size_t stride, size_t i, const Place& place,
+                                Vec3* normal) {
+  *normal = Vec3{};
+  if (data == nullptr) return {};
+  const Rows rows = {data, stride};
+  if (greatest_component(rows[i]) == 0.0) return {};
+  return read_normal(rows, i, place, normal);
+}
+
+/* The sum of the sample counts; Kind is wsk_curve or wsk_sensor_curve. */
+template <typename Kind>
+static Status count_raw_samples(const Kind* curves, size_t count, size_t* total) {
+  *total = 0;
+  if (count == 0) return fail(Code::empty, "there are no curves");
+  if (curves == nullptr) return fail(Code::bad_argument, "the curves are null");
+  if (count >= k_none / 2) return fail(Code::too_large, "too many curves for 32-bit indices");
+  for (size_t c = 0; c < count; ++c) {
+    const Place place = curve_place(c);
+    if (curves[c].sample_count == 0) {
+      return fail(Code::too_few_samples, "the curve has no samples", place);
+    }
+    if (curves[c].sample_count >= k_none / 4 - *total) {
+      return fail(Code::too_large, "too many samples for 32-bit indices", place);
+    }
+    *total += curves[c].sample_count;
+  }
+  return {};
+}
+
+static Status read_raw_curve(const wsk_curve& curve, uint32_t index, bool sharp,
+                             network::Wires* wires) {
+  for (uint32_t i = 0; i < curve.sample_count; ++i) {
+    const Place place = sample_place(index, i);
+    Vec3 position, normal, right;
+    TRY(read_position({curve.positions, curve.position_stride}, i, place, &position));
+    TRY(read_known_normal(curve.normals, curve.normal_stride, i, place, &normal));
+    wires->position.push_reserved(position);
+    wires->normal.push_reserved(normal);
+    wires->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
+    wires->origin.push_reserved({index, i, 0.0});
+    wires->along.push_reserved({index, i, 0});
+    if (!sharp) continue;
+    const double* data = curve.sharp != 0 ? curve.normals_right : nullptr;
+    TRY(read_known_normal(data, curve.normal_right_stride, i, place, &right));
+    wires->right.push_reserved(right);
+  }
+  wires->closed.push_reserved(curve.closed != 0);
+  wires->boundary.push_reserved(curve.boundary != 0);
+  wires->sharp.push_reserved(curve.sharp != 0);
+  wires->soft.push_reserved(curve.soft);
+  wires->start.push_reserved(wires->samples());
+  return {};
+}
+
+Status read_raw_curves(const wsk_curve* curves, size_t count, network::Wires* wires) {
+  size_t total = 0;
+  bool sharp = false;
+  TRY(count_raw_samples(curves, count, &total));
+  for (uint32_t c = 0; c < count; ++c) {
+    const Place place = curve_place(c);
+    sharp = sharp || curves[c].sharp != 0;
+    if (curves[c].positions == nullptr) {
+      return fail(Code::bad_argument, "the curve has no positions", place);
+    }
+    if (curves[c].soft - curves[c].soft != 0.0) {
+      return fail(Code::bad_argument, "the cutoff length of the curve is not finite", place);
+    }
+  }
+  TRY(network::reserve_wires(static_cast<uint32_t>(count), static_cast<uint32_t>(total), sharp,
+                             wires));
+  wires->start.push_reserved(0);
+  for (uint32_t c = 0; c < count; ++c) TRY(read_raw_curve(curves[c], c, sharp, wires));
+  return {};
+}
+
+static Status read_sensor_sample(const wsk_sensor_curve& curve, uint32_t index, uint32_t i,
+                                 SensorCurves* sensor) {
+  const Place place = sample_place(index, i);
+  const double s = curve.arc_lengths[i];
+  Vec3 normal, direction;
+  TRY(read_known_normal(curve.tangents, curve.tangent_stride, i, place, &direction));
+  TRY(read_known_normal(curve.normals, curve.normal_stride, i, place, &normal));
+  if (direction == Vec3{}) return fail(Code::bad_argument, "the tangent has zero length", place);
+  if (s != s) return fail(Code::not_a_number, "the arc length is not a number", place);
+  if (s - s != 0.0) return fail(Code::infinite, "the arc length is infinite", place);
+  if (i > 0 && !(s > sensor->arc.back())) {
+    return fail(Code::duplicate_samples, "the arc length does not increase", place);
+  }
+  sensor->arc.push_reserved(s);
+  sensor->tangent.push_reserved(direction);
+  sensor->wires.position.push_reserved(Vec3{});
+  sensor->wires.normal.push_reserved(normal);
+  sensor->wires.number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
+  sensor->wires.origin.push_reserved({index, i, 0.0});
+  return {};
+}
+
+static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
+                                SensorCurves* sensor) {
+  if (curve.sample_count < (curve.closed != 0 ? 4u : 2u)) {
+    return fail(Code::too_few_samples, "the curve has too few samples", curve_place(index));
+  }
+  if (curve.arc_lengths == nullptr || curve.tangents == nullptr) {
+    return fail(Code::bad_argument, "the curve has no arc lengths or no tangents",
+                curve_place(index));
+  }
+  for (uint32_t i = 0; i < curve.sample_count; ++i) {
+    TRY(read_sensor_sample(curve, index, i, sensor));
+  }
+  network::Wires& wires = sensor->wires;
+  wires.closed.push_reserved(curve.closed != 0);
+  wires.boundary.push_reserved(curve.boundary != 0);
+  wires.sharp.push_reserved(0);
+  wires.soft.push_reserved(0.0);
+  wires.start.push_reserved(wires.samples());
+  sensor->to_next.push_reserved(curve.tangents_to_next != 0);
+  return {};
+}
+
+Status read_sensor_curves(const wsk_sensor_curve* curves, size_t count, SensorCurves* sensor) {
+  size_t total = 0;
+  TRY(count_raw_samples(curves, count, &total));
+  TRY(network::reserve_wires(static_cast<uint32_t>(count), static_cast<uint32_t>(total), false,
+                             &sensor->wires));
+  TRY(sensor->arc.reserve(total));
+  TRY(sensor->tangent.reserve(total));
+  TRY(sensor->to_next.reserve(count));
+  sensor->wires.start.push_reserved(0);
+  for (uint32_t c = 0; c < count; ++c) TRY(read_sensor_curve(curves[c], c, sensor));
+  return {};
+}
+
+}  /* namespace wireskin::api */
+/* ======== end src/api/raw_curves.cpp ======== */
 
 /* ======== begin src/network/integrate.cpp ======== */
 namespace wireskin::network {
@@ -14442,6 +17242,21 @@ static Status fail_sample(Code code, const char* sentence, size_t sample) {
   return fail_at_sample(code, sentence, k_none, static_cast<uint32_t>(sample));
 }
 
+/* From the sample before to the one behind, as far as there are any. */
+static Vec3 direction_at(const Samples& samples, size_t i) {
+  const size_t n = samples.position.size(), last = n - 1;
+  const size_t before = i > 0 ? i - 1 : samples.closed ? last : 0;
+  const size_t behind = i < last ? i + 1 : samples.closed ? 0 : last;
+  return samples.position[behind] - samples.position[before];
+}
+
+/* Whether the normals of two neighbouring samples point to different sides of the surface. */
+static bool sides_differ(const Samples& samples, size_t before, size_t i) {
+  const Vec3 &a = samples.normal[before], &b = samples.normal[i];
+  return opposed(a, b, samples.position[i] - samples.position[before]) &&
+         lies_across(a, direction_at(samples, before)) && lies_across(b, direction_at(samples, i));
+}
+
 Status check_samples(const Samples& samples) {
   const size_t n = samples.position.size();
   if (n < (samples.closed ? 3u : 2u)) {
@@ -14460,9 +17275,18 @@ Status check_samples(const Samples& samples) {
                                 : "the sample repeats the one before it",
                          i);
     }
-    if (dot(samples.normal[i], samples.normal[before]) < k_least_normal_cosine) {
+    if (sides_differ(samples, before, i)) {
       return fail_sample(Code::inconsistent_normals,
-                         "the normal turns by more than 120 degrees from the sample before", i);
+                         "the normal points to the other side than at the sample before; if only "
+                         "signs are wrong, the option orient makes them agree",
+                         i);
+    }
+    if (dot(samples.normal[i], samples.normal[before]) < k_least_normal_cosine) {
+      return fail_sample(
+          Code::inconsistent_normals,
+          "the normal turns by more than 120 degrees from the sample before: samples are "
+          "too far apart there, or a sign is wrong",
+          i);
     }
   }
   return {};
@@ -14789,6 +17613,48 @@ void PointGrid::choose_cells(size_t points, const Vec3& extent) {
   }
 }
 
+uint32_t PointGrid::widest_axis(const Range& range) const {
+  Vec3 low = item_[range.first].at, high = low;
+  for (uint32_t i = range.first; i < range.last; ++i) {
+    const Vec3& p = item_[i].at;
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
+  }
+  const Vec3 extent = high - low;
+  if (extent.x >= extent.y && extent.x >= extent.z) return 0;
+  return extent.y >= extent.z ? 1 : 2;
+}
+
+void PointGrid::put_median_in_the_middle(const Range& range, uint32_t axis) {
+  const auto less = [axis](const Item& a, const Item& b) {
+    const double x = along(a.at, axis), y = along(b.at, axis);
+    return x < y || (x == y && a.index < b.index);
+  };
+  Item *first = item_.begin() + range.first, *last = item_.begin() + range.last;
+  Item* const median = item_.begin() + range.middle();
+  /* Where the pivots turn out badly, sorting all keeps the bound. */
+  uint32_t budget = 8;
+  for (uint32_t n = range.size(); n > 1; n >>= 1) budget += 2;
+  for (; last - first > 16 && budget > 0; --budget) {
+    Item* const split = partition(first, last, less);
+    (median < split ? last : first) = split;
+  }
+  heap_sort(first, last, less);
+}
+
+void PointGrid::make_tree(const Range& whole) {
+  Range stack[k_most_depth] = {whole};
+  for (uint32_t depth = 1; depth > 0;) {
+    const Range range = stack[--depth];
+    if (range.size() <= k_crowd) continue;
+    const uint32_t axis = widest_axis(range), middle = range.middle();
+    put_median_in_the_middle(range, axis);
+    axis_[middle] = static_cast<uint8_t>(axis);
+    stack[depth++] = {range.first, middle};
+    stack[depth++] = {middle + 1, range.last};
+  }
+}
+
 Status PointGrid::build(Span<const Vec3> points) {
   per_cell_ = 0.0;
   size_ = Cell();
@@ -14801,17 +17667,451 @@ Status PointGrid::build(Span<const Vec3> points) {
   choose_cells(points.size(), high - low_);
   TRY(start_.assign(size_t{size_.x} * size_.y * size_.z + 1, 0));
   TRY(item_.resize(points.size()));
+  TRY(axis_.resize(points.size()));
   for (const Vec3& p : points) ++start_[index_of(p)];
   starts_from_counts(start_.span());
-  for (uint32_t i = 0; i < points.size(); ++i) item_[start_[index_of(points[i])]++] = i;
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    item_[start_[index_of(points[i])]++] = {points[i], i};
+  }
   /* Each start stands at the next one's place now. */
   for (size_t c = start_.size() - 1; c > 0; --c) start_[c] = start_[c - 1];
   start_[0] = 0;
+  for (size_t c = 0; c + 1 < start_.size(); ++c) make_tree({start_[c], start_[c + 1]});
   return {};
 }
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/point_grid.cpp ======== */
+
+/* ======== begin src/flow/bend_arcs.cpp ======== */
+namespace wireskin::flow {
+
+namespace {
+
+constexpr uint32_t k_most_pieces = 16;  /* of a segment between two samples */
+
+/* One segment of a chain as a Hermite cubic: the ends and what leaves and reaches them. */
+struct Cubic {
+  Vec3 p, q, leave, reach;
+
+  Vec3 at(double t) const {
+    const double u = 1.0 - t;
+    return p + (t * t * (3.0 - 2.0 * t)) * (q - p) + (t * u) * (u * leave - t * reach);
+  }
+};
+
+/* The neighbours of a place along its chain; k_none beyond an end. */
+struct ChainWalk {
+  const Arcs& arcs;
+  const Chains& chains;
+  uint32_t first, count;
+  bool closed;
+
+  ChainWalk(const Arcs& all, const Chains& list, uint32_t chain)
+      : arcs(all),
+        chains(list),
+        first(list.start[chain]),
+        count(list.start[chain + 1] - list.start[chain]),
+        closed(list.closed[chain] != 0) {}
+  uint32_t after(uint32_t i) const { return i + 1 < count ? i + 1 : closed ? 0 : k_none; }
+  uint32_t before(uint32_t i) const { return i > 0 ? i - 1 : closed ? count - 1 : k_none; }
+  const Vec3& point(uint32_t i) const { return arcs.vertex[chains.vertex[first + i]]; }
+};
+
+}  /* namespace */
+
+/* The unit tangent at a place; zero at ends and corners, where none is known. */
+static Vec3 tangent_at(const ChainWalk& walk, uint32_t i) {
+  constexpr double k_cos_corner = 0.8191520442889918;  /* of 35 degrees */
+  const uint32_t before = walk.before(i), after = walk.after(i);
+  if (before == k_none || after == k_none) return {};
+  const Vec3 to = walk.point(i) - walk.point(before), from = walk.point(after) - walk.point(i);
+  const double g = length(to), h = length(from);
+  if (dot(to, from) < k_cos_corner * (g * h)) return {};
+  return unit((h / g) * to + (g / h) * from);
+}
+
+/* A tangent turned over in the middle of the chord: what a circle does. */
+static Vec3 mirrored(const Vec3& tangent, const Vec3& along) {
+  return 2.0 * dot(tangent, along) * along - tangent;
+}
+
+/* How fast a circle with that tangent leaves the chord, in parameters of a cubic; no farther than */
+/* twice the segment beyond the end. */
+static Vec3 speed(const Vec3& tangent, const Vec3& along, double chord, double beyond) {
+  return (smaller(chord, 2.0 * beyond) * 2.0 / (1.0 + dot(tangent, along))) * tangent;
+}
+
+/* Whether the segment from place i to the next bends at all. */
+static bool cubic_of(const ChainWalk& walk, uint32_t i, Cubic* cubic) {
+  constexpr double k_straight = 1e-7;
+  const uint32_t k = walk.after(i), before = walk.before(i), after = walk.after(k);
+  cubic->p = walk.point(i);
+  cubic->q = walk.point(k);
+  const double chord = length(cubic->q - cubic->p);
+  const Vec3 along = unit(cubic->q - cubic->p);
+  Vec3 leave = tangent_at(walk, i), reach = tangent_at(walk, k);
+  const bool free_begin = leave == Vec3{}, free_end = reach == Vec3{};
+  if (free_begin && free_end) return false;
+  if (free_begin) leave = mirrored(reach, along);
+  if (free_end) reach = mirrored(leave, along);
+  if (length(cross(leave, along)) + length(cross(reach, along)) < k_straight) return false;
+  const double begin = free_begin ? chord : length(cubic->p - walk.point(before));
+  const double end = free_end ? chord : length(walk.point(after) - cubic->q);
+  const double shorter = smaller(begin, end);
+  cubic->leave = speed(leave, along, chord, free_begin ? shorter : begin);
+  cubic->reach = speed(reach, along, chord, free_end ? shorter : end);
+  return true;
+}
+
+static uint32_t pieces_of(const Cubic& cubic, double step) {
+  const double wished = 4.0 * length(cubic.q - cubic.p) / step;
+  return wished < k_most_pieces ? static_cast<uint32_t>(wished) + 1 : k_most_pieces;
+}
+
+/* New vertices of every place's segment, the next place's on: first[i] .. first[i + 1). */
+static Status bend_chains(Context& context, const Chains& chains, double step, Arcs* arcs,
+                          Array<uint32_t>* first) {
+  Cubic cubic;
+  TRY(first->reserve(chains.vertex.size() + 1));
+  Array<Vec3> added(context);
+  const uint32_t given = static_cast<uint32_t>(arcs->vertex.size());
+  for (uint32_t c = 0; c < chains.size(); ++c) {
+    const ChainWalk walk(*arcs, chains, c);
+    for (uint32_t i = 0; i < walk.count; ++i) {
+      first->push_reserved(given + static_cast<uint32_t>(added.size()));
+      if (walk.after(i) == k_none || !cubic_of(walk, i, &cubic)) continue;
+      const uint32_t pieces = pieces_of(cubic, step);
+      for (uint32_t k = 1; k < pieces; ++k) TRY(added.push(cubic.at(double(k) / pieces)));
+    }
+    if (added.size() >= k_none / 4) {
+      return fail(Code::too_large, "too many samples for 32-bit indices");
+    }
+    if (c % 1024 == 0) TRY(context.checkpoint());
+  }
+  first->push_reserved(given + static_cast<uint32_t>(added.size()));
+  TRY(arcs->vertex.reserve(given + added.size()));
+  TRY(arcs->is_node.reserve(given + added.size()));
+  for (const Vec3& p : added) {
+    arcs->vertex.push_reserved(p);
+    arcs->is_node.push_reserved(0);
+  }
+  return {};
+}
+
+/* The arcs with the new vertices in their paths. */
+static Status lengthen_paths(const Chains& chains, Span<const uint32_t> first, Arcs* arcs) {
+  Context& context = arcs->path.context();
+  Array<uint32_t> start(context), path(context), curve(context);
+  Array<double> along(context);
+  const size_t room = arcs->path.size() + (first[first.size() - 1] - first[0]);
+  TRY(start.reserve(arcs->start.size()));
+  TRY(path.reserve(room));
+  TRY(curve.reserve(room));
+  TRY(along.reserve(room));
+  start.push_reserved(0);
+  for (uint32_t a = 0; a < arcs->size(); ++a) {
+    const uint32_t begin = arcs->start[a], end = arcs->start[a + 1] - 1;
+    const bool backward = chains.arc_backward[a] != 0;
+    double length_so_far = 0.0;
+    const auto add = [&](uint32_t vertex, uint32_t of_curve) {
+      if (path.size() > start.back()) {
+        length_so_far += length(arcs->vertex[vertex] - arcs->vertex[path.back()]);
+      }
+      path.push_reserved(vertex);
+      curve.push_reserved(of_curve);
+      along.push_reserved(length_so_far);
+    };
+    for (uint32_t i = begin; i < end; ++i) {
+      add(arcs->path[i], arcs->curve[i]);
+      const uint32_t place = chains.arc_place[a] + (backward ? end - 1 - i : i - begin);
+      const uint32_t low = first[place], count = first[place + 1] - low;
+      for (uint32_t k = 0; k < count; ++k) {
+        add(backward ? low + count - 1 - k : low + k, arcs->curve[i]);
+      }
+    }
+    add(arcs->path[end], arcs->curve[end]);
+    start.push_reserved(static_cast<uint32_t>(path.size()));
+  }
+  arcs->start = static_cast<Array<uint32_t>&&>(start);
+  arcs->path = static_cast<Array<uint32_t>&&>(path);
+  arcs->curve = static_cast<Array<uint32_t>&&>(curve);
+  arcs->along = static_cast<Array<double>&&>(along);
+  return {};
+}
+
+Status bend_arcs(Context& context, double step, Arcs* arcs) {
+  Chains chains(context);
+  Array<uint32_t> first(context);
+  TRY(find_chains(context, *arcs, 0.0, &chains));
+  TRY(bend_chains(context, chains, step, arcs, &first));
+  return first.back() == first[0] ? Status{} : lengthen_paths(chains, first.span(), arcs);
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/bend_arcs.cpp ======== */
+
+/* ======== begin src/flow/chains.cpp ======== */
+namespace wireskin::flow {
+
+/* End 2 a is the begin of arc a, 2 a + 1 its end. */
+static uint32_t vertex_at_end(const Arcs& arcs, uint32_t end) {
+  const uint32_t a = end / 2;
+  return arcs.path[end % 2 == 0 ? arcs.start[a] : arcs.start[a + 1] - 1];
+}
+
+static uint32_t curve_at_end(const Arcs& arcs, uint32_t end) {
+  const uint32_t a = end / 2;
+  return arcs.curve[end % 2 == 0 ? arcs.start[a] : arcs.start[a + 1] - 2];
+}
+
+/* From the end into its arc. */
+static Vec3 direction_at_end(const Arcs& arcs, uint32_t end) {
+  const uint32_t a = end / 2;
+  const uint32_t next = arcs.path[end % 2 == 0 ? arcs.start[a] + 1 : arcs.start[a + 1] - 2];
+  return unit(arcs.vertex[next] - arcs.vertex[vertex_at_end(arcs, end)]);
+}
+
+/* The ends of arcs at node v are end[start[v]] .. end[start[v + 1] - 1]. */
+static Status gather_ends(const Arcs& arcs, Array<uint32_t>* start, Array<uint32_t>* ends) {
+  const uint32_t n = static_cast<uint32_t>(arcs.vertex.size());
+  TRY(start->assign(size_t{n} + 1, 0));
+  TRY(ends->resize(2 * size_t{arcs.size()}));
+  for (uint32_t end = 0; end < ends->size(); ++end) ++(*start)[vertex_at_end(arcs, end)];
+  starts_from_counts(start->span());
+  for (uint32_t end = 0; end < ends->size(); ++end) {
+    (*ends)[(*start)[vertex_at_end(arcs, end)]++] = end;
+  }
+  for (size_t v = n; v > 0; --v) (*start)[v] = (*start)[v - 1];
+  (*start)[0] = 0;
+  return {};
+}
+
+/* At a junction: of the ends of one curve the straightest pair first. The ends are of one curve. */
+static void pair_straightest(const Arcs& arcs, Span<const uint32_t> ends, Span<uint32_t> partner) {
+  constexpr size_t k_most = 8;  /* a curve that passes a point more often is not followed */
+  constexpr double k_least_cosine = 0.5;
+  if (ends.size() > k_most) return;
+  while (true) {
+    uint32_t best[2] = {k_none, k_none};
+    double straightest = k_least_cosine;
+    for (size_t i = 0; i < ends.size(); ++i) {
+      for (size_t k = i + 1; k < ends.size(); ++k) {
+        if (partner[ends[i]] != k_none || partner[ends[k]] != k_none) continue;
+        const double cosine =
+            -dot(direction_at_end(arcs, ends[i]), direction_at_end(arcs, ends[k]));
+        if (!(cosine > straightest)) continue;
+        straightest = cosine;
+        best[0] = ends[i], best[1] = ends[k];
+      }
+    }
+    if (best[0] == k_none) return;
+    partner[best[0]] = best[1];
+    partner[best[1]] = best[0];
+  }
+}
+
+static Status pair_ends(const Arcs& arcs, Array<uint32_t>* partner) {
+  Array<uint32_t> start(partner->context()), ends(partner->context());
+  TRY(gather_ends(arcs, &start, &ends));
+  TRY(partner->assign(ends.size(), k_none));
+  for (uint32_t v = 0; v < arcs.vertex.size(); ++v) {
+    const Span<uint32_t> here = ends.span().part(start[v], start[v + 1] - start[v]);
+    if (arcs.is_node[v] == 0) continue;
+    if (here.size() == 2) {
+      (*partner)[here[0]] = here[1];
+      (*partner)[here[1]] = here[0];
+      continue;
+    }
+    sort(here, [&](uint32_t a, uint32_t b) {
+      const uint32_t c = curve_at_end(arcs, a), d = curve_at_end(arcs, b);
+      return c != d ? c < d : a < b;
+    });
+    for (size_t i = 0, first = 0; i < here.size(); ++i) {
+      const bool last = i + 1 == here.size();
+      if (!last && curve_at_end(arcs, here[i + 1]) == curve_at_end(arcs, here[first])) continue;
+      pair_straightest(arcs, here.part(first, i + 1 - first), partner->span());
+      first = i + 1;
+    }
+  }
+  return {};
+}
+
+/* Follows a chain from one end of an arc on, until nothing goes on or it is back. */
+static void trace_chain(const Arcs& arcs, Span<const uint32_t> partner, uint32_t end,
+                        Span<uint8_t> used, Chains* chains) {
+  const uint32_t first = end;
+  bool closed = false;
+  while (true) {
+    const uint32_t a = end / 2, count = arcs.start[a + 1] - arcs.start[a];
+    used[a] = 1;
+    chains->arc_place[a] = static_cast<uint32_t>(chains->vertex.size());
+    chains->arc_backward[a] = end % 2;
+    for (uint32_t i = 0; i + 1 < count; ++i) {
+      const uint32_t at = end % 2 == 0 ? arcs.start[a] + i : arcs.start[a + 1] - 1 - i;
+      chains->vertex.push_reserved(arcs.path[at]);
+    }
+    closed = arcs.closed[a] != 0 || partner[end ^ 1u] == first;
+    const uint32_t next = partner[end ^ 1u];
+    if (!closed && next == k_none) chains->vertex.push_reserved(vertex_at_end(arcs, end ^ 1u));
+    if (closed || next == k_none) break;
+    end = next;
+  }
+  chains->closed.push_reserved(closed);
+  chains->start.push_reserved(static_cast<uint32_t>(chains->vertex.size()));
+}
+
+static Status trace_chains(const Arcs& arcs, Chains* chains) {
+  Array<uint32_t> partner(chains->vertex.context());
+  Array<uint8_t> used(chains->vertex.context());
+  TRY(pair_ends(arcs, &partner));
+  TRY(used.assign(arcs.size(), 0));
+  TRY(chains->start.reserve(size_t{arcs.size()} + 1));
+  TRY(chains->closed.reserve(arcs.size()));
+  TRY(chains->vertex.reserve(arcs.path.size()));
+  TRY(chains->arc_place.resize(arcs.size()));
+  TRY(chains->arc_backward.resize(arcs.size()));
+  chains->start.clear();
+  chains->closed.clear();
+  chains->vertex.clear();
+  chains->start.push_reserved(0);
+  /* Chains that begin somewhere first; what is left after that goes round. */
+  for (int pass = 0; pass < 2; ++pass) {
+    for (uint32_t end = 0; end < partner.size(); ++end) {
+      if (used[end / 2] != 0 || (pass == 0 && partner[end] != k_none)) continue;
+      if (pass == 0 && arcs.closed[end / 2] != 0) continue;
+      trace_chain(arcs, partner.span(), end, used.span(), chains);
+    }
+  }
+  return {};
+}
+
+namespace {
+
+/* How a chain turns at one of its places, seen from neighbours so many places away. */
+struct Bend {
+  double turn = 0.0;  /* length of the difference of the two directions */
+  double move = 0.0;  /* how far a sample must have moved to make that of a straight line */
+};
+
+struct Turn {
+  uint32_t place;
+  Bend narrow, wide;
+  bool flat;  /* it goes on in the plane in which it turns, or at a right angle to that */
+
+  double strength() const { return narrow.turn + wide.turn; }
+};
+
+}  /* namespace */
+
+static constexpr double k_sharp = 0.60141159900854613;  /* 2 sin(35 degrees / 2) */
+static constexpr uint32_t k_wide = 3;
+
+/* Nothing where the chain ends before that. */
+static Bend bend_at(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place,
+                    uint32_t away) {
+  const uint32_t first = chains.start[chain], count = chains.start[chain + 1] - first;
+  const uint32_t i = place - first;
+  const bool inside = i >= away && i + away < count;
+  if (!inside && (chains.closed[chain] == 0 || count <= 2 * away)) return {};
+  const Vec3& p = arcs.vertex[chains.vertex[place]];
+  const Vec3 to = p - arcs.vertex[chains.vertex[first + (i + count - away) % count]];
+  const Vec3 from = arcs.vertex[chains.vertex[first + (i + away) % count]] - p;
+  const double g = 1.0 / length(to), h = 1.0 / length(from);
+  const double turn = length(h * from - g * to);
+  return {turn, turn / std::sqrt(g * g + h * h + (g + h) * (g + h))};
+}
+
+/* Polygons that people draw lie in planes, or are made of right angles; noise does neither. */
+static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place) {
+  constexpr double k_flat = 0.02;
+  const uint32_t first = chains.start[chain], count = chains.start[chain + 1] - first;
+  const uint32_t i = place - first;
+  if (chains.closed[chain] == 0 && (i == 0 || i + 2 >= count)) return true;
+  const auto point = [&](uint32_t k) -> const Vec3& {
+    return arcs.vertex[chains.vertex[first + k % count]];
+  };
+  const Vec3 across = cross(point(i) - point(i + count - 1), point(i + 1) - point(i));
+  const Vec3 next = point(i + 2) - point(i + 1);
+  const double part = std::fabs(dot(across, next)) / (length(across) * length(next));
+  return !(part > k_flat && part < 1.0 - k_flat);
+}
+
+/* Of the noise, as the quarter of the samples that moved least show it: where curves are polygons */
+/* with a few samples on each side, those are not corners. Displacements by sigma along both */
+/* transverse axes have the lower quartile .76 sigma. */
+static Status noise_of(Span<const Turn> turns, Array<double>* moves, double* sigma) {
+  constexpr double k_quartile_of_rayleigh = 0.76;
+  TRY(moves->resize(turns.size()));
+  for (size_t i = 0; i < turns.size(); ++i) (*moves)[i] = turns[i].narrow.move;
+  sort(moves->span(), [](double a, double b) { return a < b; });
+  *sigma = (*moves)[turns.size() / 4] / k_quartile_of_rayleigh;
+  return {};
+}
+
+/* Of the places nearby none turns more. */
+static bool turns_most(Span<const Turn> turns, size_t i, bool closed) {
+  const size_t n = turns.size();
+  for (size_t away = 1; away < k_wide && away < n; ++away) {
+    const bool before = closed || i >= away, after = closed || i + away < n;
+    if (before && turns[(i + n - away) % n].strength() > turns[i].strength()) return false;
+    if (after && turns[(i + away) % n].strength() > turns[i].strength()) return false;
+  }
+  return true;
+}
+
+/* Noise hides a corner from its neighbours sooner than from samples farther away. */
+static Status mark_corners_of(double noise, bool closed, Span<const Turn> turns,
+                              Array<double>* moves, Span<uint8_t> corner) {
+  constexpr double k_contrast = 4.7;  /* one in 50 000 samples moves by more */
+  constexpr size_t k_statistics = 16;
+  if (turns.empty()) return {};
+  size_t sharp = 0, flat = 0;
+  double sigma = noise;
+  for (const Turn& turn : turns) {
+    sharp += turn.narrow.turn > k_sharp;
+    flat += turn.flat;
+  }
+  const bool in_space = turns.size() >= k_statistics && 5 * flat < turns.size();
+  const bool polygon = !(noise > 0.0) && !in_space && 4 * sharp > 3 * turns.size();
+  if (!(noise > 0.0)) TRY(noise_of(turns, moves, &sigma));
+  for (size_t i = 0; i < turns.size(); ++i) {
+    const Bend &narrow = turns[i].narrow, &wide = turns[i].wide;
+    if (!(narrow.turn > k_sharp)) continue;
+    const bool alone =
+        wide.turn > k_sharp && wide.move > k_contrast * sigma && turns_most(turns, i, closed);
+    corner[turns[i].place] = polygon || alone || narrow.move > k_contrast * sigma;
+  }
+  return {};
+}
+
+static Status mark_corners(Context& context, const Arcs& arcs, double noise, Chains* chains) {
+  Array<Turn> turns(context);
+  Array<double> moves(context);
+  TRY(turns.reserve(chains->vertex.size()));
+  TRY(chains->corner.assign(chains->vertex.size(), 0));
+  for (uint32_t c = 0; c < chains->size(); ++c) {
+    const bool closed = chains->closed[c] != 0;
+    turns.clear();
+    for (uint32_t i = chains->start[c]; i < chains->start[c + 1]; ++i) {
+      const bool end = i == chains->start[c] || i + 1 == chains->start[c + 1];
+      if (!closed && end) continue;
+      turns.push_reserved({i, bend_at(arcs, *chains, c, i, 1), bend_at(arcs, *chains, c, i, k_wide),
+                           is_flat(arcs, *chains, c, i)});
+    }
+    TRY(mark_corners_of(noise, closed, turns.span(), &moves, chains->corner.span()));
+    if (c % 1024 == 0) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+Status find_chains(Context& context, const Arcs& arcs, double noise, Chains* chains) {
+  TRY(trace_chains(arcs, chains));
+  return mark_corners(context, arcs, noise, chains);
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/chains.cpp ======== */
 
 /* ======== begin src/flow/delaunay.cpp ======== */
 namespace wireskin::flow {
@@ -15877,6 +19177,192 @@ Status radix_sort(Context& context, Array<BitsKey>* keys) {
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/radix_sort.cpp ======== */
 
+/* ======== begin src/flow/loose_walls.cpp ======== */
+namespace wireskin::flow {
+
+/* Of a wall's border, how much makes it loose: ending in flat faces, and ending anywhere. */
+static constexpr double k_share_in_faces = 0.25, k_share_anywhere = 0.9;
+/* Rooms of a lesser ratio are noise of the samples; only flat faces are sure enough to tell by. */
+static constexpr double k_least_room = 1.02;
+static constexpr int k_most_rounds = 8;
+/* The cosine between two walls at an edge, both seen from it, that continue each other: 160 */
+/* degrees. */
+static constexpr double k_continuing = -0.94;
+static constexpr uint32_t k_most_at_edge = 16;
+
+namespace {
+
+enum class Ending : uint8_t { none, somewhere, in_face };
+
+/* The walls at the edges off the curves where three or more triangles meet. */
+struct LooseSearch {
+  Sheet sheet;
+  Array<uint32_t> mark, wall;
+  Array<uint32_t> ending;  /* of each edge, a bit for each place in triangles_of that ends there */
+  Array<uint8_t> in_face;  /* of each edge: two of those that continue are a flat face */
+
+  explicit LooseSearch(Context& context)
+      : sheet(context), mark(context), wall(context), ending(context), in_face(context) {}
+};
+
+struct EdgeFan {
+  uint32_t count = 0;
+  uint32_t place[k_most_at_edge];
+  Vec3 into[k_most_at_edge];
+  bool flat[k_most_at_edge];
+};
+
+}  /* namespace */
+
+/* From the edge into the triangle, orthogonal to the edge. */
+static Vec3 into_triangle(const Complex& complex, uint32_t e, uint32_t t) {
+  const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const uint32_t c = v[0] != a && v[0] != b ? v[0] : v[1] != a && v[1] != b ? v[1] : v[2];
+  const Vec3 along = unit(complex.point[b] - complex.point[a]);
+  const Vec3 to = complex.point[c] - complex.point[a];
+  return unit(to - dot(to, along) * along);
+}
+
+static void gather_fan(const Complex& complex, const Sheet& sheet, Span<const Flatness> flatness,
+                       uint32_t e, EdgeFan* fan) {
+  const Span<const uint32_t> all = complex.triangles_of(e);
+  for (uint32_t i = 0; i < all.size() && i < 32 && fan->count < k_most_at_edge; ++i) {
+    if (sheet.in[all[i]] == 0) continue;
+    fan->place[fan->count] = i;
+    fan->into[fan->count] = into_triangle(complex, e, all[i]);
+    fan->flat[fan->count++] = flatness[all[i]] != Flatness::none;
+  }
+}
+
+/* Pairs those that continue each other, from the flattest on; flat faces before all others. */
+static void pair_fan(const EdgeFan& fan, uint32_t* ending, uint8_t* in_face) {
+  *ending = 0;
+  for (uint32_t i = 0; i < fan.count; ++i) *ending |= 1u << fan.place[i];
+  for (uint32_t pass = 0; pass < 2; ++pass) {
+    const bool flat = pass == 0;
+    while (true) {
+      double least = k_continuing;
+      uint32_t first = 0, second = 0;
+      for (uint32_t i = 0; i < fan.count; ++i) {
+        for (uint32_t k = i + 1; k < fan.count; ++k) {
+          const bool free =
+              (*ending >> fan.place[i] & 1u) != 0 && (*ending >> fan.place[k] & 1u) != 0;
+          const double cosine = dot(fan.into[i], fan.into[k]);
+          if (!free || (flat && !(fan.flat[i] && fan.flat[k])) || !(cosine < least)) continue;
+          least = cosine;
+          first = i;
+          second = k;
+        }
+      }
+      if (first == second) break;
+      *ending &= ~(1u << fan.place[first]) & ~(1u << fan.place[second]);
+      if (flat) *in_face = 1;
+    }
+  }
+}
+
+static void find_endings(const Complex& complex, const CurveEdges& curves,
+                         Span<const Flatness> flatness, LooseSearch* search) {
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    search->ending[e] = search->in_face[e] = 0;
+    if (search->sheet.degree[e] < 3 || curves.by_curve(e)) continue;
+    EdgeFan fan;
+    gather_fan(complex, search->sheet, flatness, e, &fan);
+    pair_fan(fan, &search->ending[e], &search->in_face[e]);
+  }
+}
+
+static Ending ending_at(const Complex& complex, const LooseSearch& search, uint32_t e, uint32_t t) {
+  const Span<const uint32_t> all = complex.triangles_of(e);
+  for (uint32_t i = 0; search.ending[e] != 0 && i < all.size() && i < 32; ++i) {
+    if (all[i] != t) continue;
+    if ((search.ending[e] >> i & 1u) == 0) return Ending::none;
+    return search.in_face[e] != 0 ? Ending::in_face : Ending::somewhere;
+  }
+  return Ending::none;
+}
+
+static bool is_loose(const Complex& complex, const CurveEdges& curves,
+                     Span<const Flatness> flatness, const LooseSearch& search, bool only_in_faces) {
+  double held = 0.0, somewhere = 0.0, in_face = 0.0;
+  for (const uint32_t t : search.wall) {
+    if (flatness[t] != Flatness::none) return false;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      const Ending ending = ending_at(complex, search, e, t);
+      if (ending == Ending::none && !curves.by_curve(e)) continue;
+      const double size = length(complex.point[complex.edge[2 * size_t{e}]] -
+                                 complex.point[complex.edge[2 * size_t{e} + 1]]);
+      (ending == Ending::in_face     ? in_face
+       : ending == Ending::somewhere ? somewhere
+                                     : held) += size;
+    }
+  }
+  const double whole = held + somewhere + in_face;
+  return in_face > k_share_in_faces * whole ||
+         (!only_in_faces && somewhere + in_face > k_share_anywhere * whole);
+}
+
+/* The walls of all rooms above a ratio. */
+static Status cut_rooms(const Complex& complex, const CurveEdges& curves,
+                        const Persistence& persistence, double least_room, Sheet* sheet) {
+  TRY(start_sheet(complex, sheet));
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    const uint32_t v = persistence.void_of[t];
+    const bool room = v != k_none && !persistence.voids[v].loose;
+    if (persistence.creator[t] == 0 || (room && persistence.voids[v].ratio > least_room)) {
+      add_to_sheet(complex, t, sheet);
+    }
+  }
+  peel(complex, curves, Protect::curves, sheet);
+  return {};
+}
+
+/* Marks the loose walls of the rooms above a ratio; true in *any if one is new. */
+static Status mark_loose(Context& context, const Complex& complex, const CurveEdges& curves,
+                         Span<const Flatness> flatness, const Persistence& persistence,
+                         double least_room, LooseSearch* search, Array<uint8_t>* loose, bool* any) {
+  TRY(cut_rooms(complex, curves, persistence, least_room, &search->sheet));
+  find_endings(complex, curves, flatness, search);
+  TRY(context.checkpoint());
+  for (uint32_t& m : search->mark) m = k_none;
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (search->sheet.in[t] == 0 || search->mark[t] != k_none) continue;
+    TRY(flood_patch(complex, curves, search->sheet, t, t, search->mark.span(), &search->wall));
+    if (!is_loose(complex, curves, flatness, *search, least_room < k_least_room)) continue;
+    *any = true;
+    for (const uint32_t member : search->wall) (*loose)[member] = 1;
+  }
+  return context.checkpoint();
+}
+
+Status find_persistence_of_faces(Context& context, const Complex& complex, const Samples& samples,
+                                 const CurveEdges& curves, Array<Flatness>* flatness,
+                                 Persistence* persistence, Array<uint8_t>* loose) {
+  LooseSearch search(context);
+  TRY(loose->assign(complex.triangle_count(), 0));
+  TRY(search.mark.resize(complex.triangle_count()));
+  TRY(search.ending.resize(complex.edge_count()));
+  TRY(search.in_face.resize(complex.edge_count()));
+  TRY(find_persistence(context, complex, persistence));
+  TRY(cut_rooms(complex, curves, *persistence, 1.0, &search.sheet));
+  TRY(find_flat_faces(context, complex, samples, curves, search.sheet, flatness));
+  bool any = true;
+  for (int round = 0; any && round < k_most_rounds; ++round) {
+    any = false;
+    for (uint32_t pass = 0; pass < 2; ++pass) {
+      TRY(mark_loose(context, complex, curves, flatness->span(), *persistence,
+                     pass == 0 ? 1.0 : k_least_room, &search, loose, &any));
+    }
+    if (any) TRY(find_persistence(context, complex, persistence, loose->span()));
+  }
+  return {};
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/loose_walls.cpp ======== */
+
 /* ======== begin src/flow/orient.cpp ======== */
 namespace wireskin::flow {
 
@@ -16164,7 +19650,8 @@ namespace {
 
 struct LoopRefinement {
   Span<const uint32_t> start;
-  uint32_t rim;
+  uint32_t rim;               /* vertices that are held */
+  Span<const uint32_t> edge;  /* held edges inside, see HeldCurves */
   double spacing;
   size_t most_points = 0;
   Array<Vec3>* position;
@@ -16173,6 +19660,7 @@ struct LoopRefinement {
   Array<uint32_t> twins;
   Array<uint32_t> suspect;    /* half-edges that may have to be flipped */
   Span<const uint32_t> name;  /* of the held points; empty: all are different */
+  Array<uint8_t> copied;      /* of the held points: another has the same name */
   bool may_relax = true;
 
   LoopRefinement(Context& context, Span<const uint32_t> loops, double wished, Array<Vec3>* points,
@@ -16184,7 +19672,8 @@ struct LoopRefinement {
         triangle(triangles),
         size(context),
         twins(context),
-        suspect(context) {}
+        suspect(context),
+        copied(context) {}
 
   uint32_t origin(uint32_t h) const { return (*triangle)[h]; }
   uint32_t head(uint32_t h) const { return (*triangle)[next_half_edge(h)]; }
@@ -16210,6 +19699,22 @@ struct Stars {
 
 }  /* namespace */
 
+static bool is_held(const LoopRefinement& r, uint32_t u, uint32_t v) {
+  if (u >= r.rim || v >= r.rim || r.edge.empty()) return false;
+  const uint32_t a = u < v ? u : v, b = u < v ? v : u;
+  size_t low = 0, high = r.edge.size() / 2;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    const uint32_t* e = &r.edge[2 * middle];
+    if (e[0] < a || (e[0] == a && e[1] < b)) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return 2 * low < r.edge.size() && r.edge[2 * low] == a && r.edge[2 * low + 1] == b;
+}
+
 static Diamond diamond_at(const LoopRefinement& r, uint32_t h) {
   const uint32_t g = r.twins[h];
   return {r.origin(h), r.origin(g), r.apex(h), r.apex(g)};
@@ -16231,15 +19736,41 @@ static double greatest_cotangent(const LoopRefinement& r, uint32_t i, uint32_t j
 }
 
 /* Walks round the origin of a half-edge, both ways because the rim may end the walk. */
-static bool joined(const LoopRefinement& r, uint32_t from_half_edge, uint32_t to) {
-  uint32_t h = from_half_edge;
-  do {
-    if (r.same(r.head(h), to) || r.same(r.apex(h), to)) return true;
-    h = r.twins[previous_half_edge(h)];
-  } while (h != k_none && h != from_half_edge);
-  if (h == from_half_edge) return false;
-  for (h = r.twins[from_half_edge]; h != k_none; h = r.twins[next_half_edge(h)]) {
-    if (r.same(r.apex(h), to)) return true;
+struct StarWalk {
+  uint32_t first, at;
+  bool backward, done;
+};
+
+/* Whether the triangle that the walk is at has a corner of the same name; then goes to the next. */
+static bool meets_and_steps(const LoopRefinement& r, uint32_t name, StarWalk* walk) {
+  if (r.same(r.head(walk->at), name) || r.same(r.apex(walk->at), name)) return true;
+  if (!walk->backward) {
+    walk->at = r.twins[previous_half_edge(walk->at)];
+    walk->done = walk->at == walk->first;
+    if (walk->at != k_none || walk->done) return false;
+    walk->backward = true;
+    walk->at = walk->first;
+  }
+  const uint32_t across = r.twins[walk->at];
+  walk->done = across == k_none;
+  if (!walk->done) walk->at = next_half_edge(across);
+  return false;
+}
+
+static bool is_copied(const LoopRefinement& r, uint32_t v) {
+  return v < r.copied.size() && r.copied[v] != 0;
+}
+
+/* Whether an edge joins the origins of two half-edges, or places of the same names. The stars are */
+/* walked round by turns, for one of them may have thousands of triangles. */
+static bool joined(const LoopRefinement& r, uint32_t from, uint32_t to) {
+  const uint32_t a = r.origin(from), b = r.origin(to);
+  StarWalk near = {from, from, false, false}, far = {to, to, false, false};
+  /* Seen from a copy the other one may be joined to another copy. */
+  const bool both = !is_copied(r, a) && !is_copied(r, b);
+  while (!near.done && !(both && far.done)) {
+    if (meets_and_steps(r, b, &near)) return true;
+    if (both && meets_and_steps(r, a, &far)) return true;
   }
   return false;
 }
@@ -16248,6 +19779,7 @@ static bool improves_by_flip(const LoopRefinement& r, uint32_t h) {
   constexpr double k_gain = 1e-9, k_least_facing = 0.5;
   if (r.twins[h] == k_none) return false;
   const Diamond q = diamond_at(r, h);
+  if (is_held(r, q.a, q.b)) return false;
   const double before =
       larger(greatest_cotangent(r, q.a, q.b, q.c), greatest_cotangent(r, q.b, q.a, q.d));
   const double after =
@@ -16259,7 +19791,7 @@ static bool improves_by_flip(const LoopRefinement& r, uint32_t h) {
   const Vec3 facing = unit(cross(b - a, c - a) + cross(a - b, d - b));
   if (!(dot(unit(cross(d - a, c - a)), facing) > k_least_facing)) return false;
   if (!(dot(unit(cross(b - d, c - d)), facing) > k_least_facing)) return false;
-  return !joined(r, previous_half_edge(h), q.d);
+  return !joined(r, previous_half_edge(h), previous_half_edge(r.twins[h]));
 }
 
 static void set_twins(LoopRefinement* r, uint32_t h, uint32_t g) {
@@ -16326,7 +19858,7 @@ static double size_between(const LoopRefinement& r, uint32_t a, uint32_t b) {
 static double excess(const LoopRefinement& r, uint32_t h) {
   if (r.twins[h] == k_none) return 0.0;
   const Diamond q = diamond_at(r, h);
-  if (r.same(q.c, q.d)) return 0.0;
+  if (r.same(q.c, q.d) || is_held(r, q.a, q.b)) return 0.0;
   const Vec3 middle = 0.5 * (r.at(q.a) + r.at(q.b));
   const double size = size_between(r, q.a, q.b);
   if (length(r.at(q.c) - middle) < k_close * size) return 0.0;
@@ -16460,8 +19992,27 @@ static Status limit_points(LoopRefinement* r) {
   if (!(points + r->rim < 5e7)) {
     return fail(Code::too_large, "the spacing is too small for the size of the patch");
   }
-  r->most_points = static_cast<size_t>(4.0 * points + 24.0 * r->rim + 1024.0);
+  /* Without relaxation the needles at a rim of very unequal edges are split on and on. */
+  const double layers = r->may_relax ? 24.0 : 2.0;
+  r->most_points = static_cast<size_t>(4.0 * points + layers * r->rim + 1024.0);
   return {};
+}
+
+/* Held points inside wish the mean of their curves' edges, those without any the spacing. */
+static Status wish_sizes_of_curves(LoopRefinement* r) {
+  const uint32_t first = r->start[r->start.size() - 1];
+  Array<uint32_t> edges(r->suspect.context());
+  TRY(edges.assign(r->rim, 0));
+  for (size_t i = 0; i < r->edge.size(); ++i) {
+    const uint32_t v = r->edge[i], other = r->edge[i ^ 1];
+    if (v < first) continue;
+    r->size[v] += length(r->at(other) - r->at(v));
+    ++edges[v];
+  }
+  for (uint32_t v = first; v < r->rim; ++v) {
+    r->size[v] = edges[v] > 0 ? r->size[v] / edges[v] : r->spacing;
+  }
+  return limit_points(r);
 }
 
 static Status wish_sizes(LoopRefinement* r) {
@@ -16476,7 +20027,7 @@ static Status wish_sizes(LoopRefinement* r) {
     }
     grade_rim(r, r->start[l], r->start[l + 1] - r->start[l]);
   }
-  return limit_points(r);
+  return wish_sizes_of_curves(r);
 }
 
 /* Held points on the border wish the mean of the border's edges there, others the spacing. */
@@ -16516,11 +20067,34 @@ static Status refine_all(LoopRefinement* r) {
 }
 
 Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
-                    Array<Vec3>* position, Array<uint32_t>* triangle) {
+                    const HeldCurves& held, Array<Vec3>* position, Array<uint32_t>* triangle) {
   LoopRefinement r(context, start, spacing, position, triangle);
+  WIRESKIN_ASSERT(held.vertices >= r.rim);
+  r.rim = held.vertices;
+  r.edge = held.edge;
   TRY(find_twins(static_cast<uint32_t>(position->size()), triangle->span(), &r.twins));
   TRY(wish_sizes(&r));
   return refine_all(&r);
+}
+
+Status refine_loops(Context& context, double spacing, Span<const uint32_t> start,
+                    Array<Vec3>* position, Array<uint32_t>* triangle) {
+  return refine_loops(context, spacing, start, {start[start.size() - 1], {}}, position, triangle);
+}
+
+static Status find_copies(Span<const uint32_t> name, Array<uint8_t>* copied) {
+  Array<uint32_t> order(copied->context());
+  TRY(order.resize(name.size()));
+  TRY(copied->assign(name.size(), 0));
+  for (uint32_t v = 0; v < order.size(); ++v) order[v] = v;
+  sort(order.span(),
+       [&](uint32_t u, uint32_t v) { return name[u] != name[v] ? name[u] < name[v] : u < v; });
+  for (size_t i = 1; i < order.size(); ++i) {
+    if (name[order[i]] == name[order[i - 1]]) {
+      (*copied)[order[i]] = (*copied)[order[i - 1]] = 1;
+    }
+  }
+  return {};
 }
 
 Status refine_patch(Context& context, double spacing, bool relax, Span<const uint32_t> name,
@@ -16530,6 +20104,7 @@ Status refine_patch(Context& context, double spacing, bool relax, Span<const uin
   LoopRefinement r(context, {all_held, 2}, spacing, position, triangle);
   r.name = name;
   r.may_relax = relax;
+  TRY(find_copies(name, &r.copied));
   TRY(find_twins(held, triangle->span(), &r.twins));
   TRY(wish_sizes_of_patch(&r));
   return refine_all(&r);
@@ -16537,549 +20112,6 @@ Status refine_patch(Context& context, double spacing, bool relax, Span<const uin
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/loop_refine.cpp ======== */
-
-/* ======== begin src/mesh/care.cpp ======== */
-namespace wireskin::mesh {
-
-static constexpr int k_relax_sweeps = 5;
-static constexpr int k_flip_sweeps = 6;
-static constexpr uint32_t k_unfold_sweeps = 40, k_sweeps_a_ring = 5;
-
-namespace {
-
-/* Where each vertex is drawn to. */
-struct Pull {
-  Vec3 sum;
-  double area;
-};
-
-/* The two triangles at an edge: a -> b is the edge, c and d the vertices opposite to it. */
-struct Quad {
-  uint32_t a, b, c, d;
-};
-
-}  /* namespace */
-
-static void relax_once(const Movable& mesh, Span<Vec3> normal, Span<Pull> pull) {
-  vertex_normals(mesh.position, mesh.triangle, normal);
-  for (Pull& p : pull) p = {Vec3{}, 0.0};
-  for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
-    const uint32_t* v = &mesh.triangle[t];
-    const Vec3 &a = mesh.position[v[0]], &b = mesh.position[v[1]], &c = mesh.position[v[2]];
-    const double area = length(cross(b - a, c - a));
-    const Vec3 weighted = area * ((1.0 / 3.0) * (a + b + c));
-    for (int k = 0; k < 3; ++k) {
-      pull[v[k]].sum += weighted;
-      pull[v[k]].area += area;
-    }
-  }
-  for (size_t v = 0; v < pull.size(); ++v) {
-    if (mesh.held[v] || !(pull[v].area > 0.0)) continue;
-    const Vec3 step = (1.0 / pull[v].area) * pull[v].sum - mesh.position[v];
-    mesh.position[v] += 0.5 * reject(step, normal[v]);
-  }
-}
-
-static Status relax(Context& context, const Movable& mesh) {
-  Array<Vec3> normal(context);
-  Array<Pull> pull(context);
-  TRY(normal.resize(mesh.position.size()));
-  TRY(pull.resize(mesh.position.size()));
-  for (int sweep = 0; sweep < k_relax_sweeps; ++sweep) {
-    relax_once(mesh, normal.span(), pull.span());
-    TRY(context.checkpoint());
-  }
-  return {};
-}
-
-static Quad quad_at(Span<const uint32_t> triangle, uint32_t h, uint32_t g) {
-  return {triangle[h], triangle[g], triangle[previous_half_edge(h)],
-          triangle[previous_half_edge(g)]};
-}
-
-/* The cotangent of the angle at p in the triangle p, q, r. */
-static double cotangent_at(const Vec3& p, const Vec3& q, const Vec3& r) {
-  return dot(q - p, r - p) / length(cross(q - p, r - p));
-}
-
-static bool has_edge(Span<const uint32_t> triangle, Span<const uint32_t> twins,
-                     uint32_t from_half_edge, uint32_t to) {
-  /* Round the origin of the half-edge in both directions, because a border may end the walk. */
-  uint32_t h = from_half_edge;
-  do {
-    if (triangle[next_half_edge(h)] == to || triangle[previous_half_edge(h)] == to) return true;
-    h = twins[previous_half_edge(h)];
-  } while (h != k_none && h != from_half_edge);
-  for (h = twins[from_half_edge]; h != k_none;) {
-    h = next_half_edge(h);
-    if (h == from_half_edge) break;
-    if (triangle[next_half_edge(h)] == to || triangle[previous_half_edge(h)] == to) return true;
-    h = twins[h];
-  }
-  return false;
-}
-
-static bool wants_flip(const Movable& mesh, Span<const uint32_t> twins, uint32_t h) {
-  const uint32_t g = twins[h];
-  if (g == k_none || g < h || mesh.patch[h / 3] != mesh.patch[g / 3]) return false;
-  const Quad q = quad_at(mesh.triangle, h, g);
-  if ((mesh.held[q.a] && mesh.held[q.b]) || (mesh.held[q.c] && mesh.held[q.d])) return false;
-  const Vec3 &a = mesh.position[q.a], &b = mesh.position[q.b];
-  const Vec3 &c = mesh.position[q.c], &d = mesh.position[q.d];
-  constexpr double k_rounding = 1e-9;
-  if (!(cotangent_at(c, a, b) + cotangent_at(d, a, b) < -k_rounding)) return false;
-  const Vec3 facing = unit(cross(b - a, c - a)) + unit(cross(a - b, d - b));
-  if (!(dot(cross(d - a, c - a), facing) > 0.0) || !(dot(cross(b - d, c - d), facing) > 0.0)) {
-    return false;
-  }
-  return !has_edge(mesh.triangle, twins, previous_half_edge(h), q.d);
-}
-
-/* Turns the edge of half-edge h: triangles a b c and b a d become a d c and d b c. */
-static void flip(Span<uint32_t> triangle, Span<uint32_t> twins, uint32_t h) {
-  const uint32_t g = twins[h];
-  const Quad q = quad_at(triangle, h, g);
-  const uint32_t t = h / 3 * 3, s = g / 3 * 3;
-  const uint32_t outer[4] = {twins[next_half_edge(g)], twins[previous_half_edge(g)],
-                             twins[next_half_edge(h)], twins[previous_half_edge(h)]};
-  const uint32_t slot[4] = {t, s, s + 1, t + 2};  /* a d, d b, b c, c a */
-  triangle[t] = q.a, triangle[t + 1] = q.d, triangle[t + 2] = q.c;
-  triangle[s] = q.d, triangle[s + 1] = q.b, triangle[s + 2] = q.c;
-  for (int k = 0; k < 4; ++k) {
-    twins[slot[k]] = outer[k];
-    if (outer[k] != k_none) twins[outer[k]] = slot[k];
-  }
-  twins[t + 1] = s + 2;
-  twins[s + 2] = t + 1;
-}
-
-static Vec3 facing_of(const Movable& mesh, uint32_t t) {
-  const uint32_t* v = &mesh.triangle[size_t{3} * t];
-  const Vec3& a = mesh.position[v[0]];
-  return cross(mesh.position[v[1]] - a, mesh.position[v[2]] - a);
-}
-
-/* Whether the two triangles at half-edge h face against each other, in one patch, at an edge that */
-/* is not between held vertices. */
-static bool is_fold(const Movable& mesh, Span<const uint32_t> twins, uint32_t h) {
-  const uint32_t g = twins[h];
-  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return false;
-  if (mesh.held[mesh.triangle[h]] && mesh.held[mesh.triangle[g]]) return false;
-  return dot(facing_of(mesh, h / 3), facing_of(mesh, g / 3)) < 0.0;
-}
-
-/* How much the surface turns between two facings, so that a turn shared by two edges costs less. */
-static double turn_between(const Vec3& a, const Vec3& b) {
-  const double turn = 1.0 - dot(unit(a), unit(b));
-  return turn * turn;
-}
-
-/* The turn between a facing at half-edge h and the triangle beyond, none at the rim of the patch. */
-static double turn_beyond(const Movable& mesh, Span<const uint32_t> twins, uint32_t h,
-                          const Vec3& facing) {
-  const uint32_t g = twins[h];
-  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return 0.0;
-  if (mesh.held[mesh.triangle[h]] && mesh.held[mesh.triangle[g]]) return 0.0;
-  return turn_between(facing, facing_of(mesh, g / 3));
-}
-
-/* Flips an edge if the surface then turns less at it and at the four round it. */
-static bool flip_to_turn_less(const Movable& mesh, Span<uint32_t> twins, uint32_t h) {
-  const uint32_t g = twins[h];
-  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return false;
-  const Quad q = quad_at(mesh.triangle, h, g);
-  if ((mesh.held[q.a] && mesh.held[q.b]) || (mesh.held[q.c] && mesh.held[q.d])) return false;
-  if (has_edge(mesh.triangle, twins, previous_half_edge(h), q.d)) return false;
-  const Vec3 &a = mesh.position[q.a], &b = mesh.position[q.b];
-  const Vec3 &c = mesh.position[q.c], &d = mesh.position[q.d];
-  const Vec3 abc = cross(b - a, c - a), bad = cross(a - b, d - b);
-  const Vec3 adc = cross(d - a, c - a), dbc = cross(b - d, c - d);
-  const uint32_t ad = next_half_edge(g), db = previous_half_edge(g), bc = next_half_edge(h),
-                 ca = previous_half_edge(h);
-  const auto beyond = [&](uint32_t edge, const Vec3& facing) {
-    return turn_beyond(mesh, twins, edge, facing);
-  };
-  const double before = turn_between(abc, bad) + beyond(ad, bad) + beyond(db, bad) +
-                        beyond(bc, abc) + beyond(ca, abc);
-  const double after = turn_between(adc, dbc) + beyond(ad, adc) + beyond(ca, adc) +
-                       beyond(db, dbc) + beyond(bc, dbc);
-  if (!(after < 0.99 * before)) return false;
-  flip(mesh.triangle, twins, h);
-  return true;
-}
-
-/* Flips the edge of a fold or one of the four round it: where a curve makes a hairpin the surface */
-/* has to turn round its tip, and does so in steps if more edges end there. */
-static void flip_at_fold(const Movable& mesh, Span<uint32_t> twins, uint32_t h) {
-  if (flip_to_turn_less(mesh, twins, h)) return;
-  const uint32_t g = twins[h];
-  const uint32_t round[4] = {next_half_edge(h), previous_half_edge(h), next_half_edge(g),
-                             previous_half_edge(g)};
-  for (uint32_t edge : round) {
-    if (flip_to_turn_less(mesh, twins, edge)) return;
-  }
-}
-
-/* Marks the free vertices round the folds, and those `rings` further out in the same patch. */
-static void mark_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds,
-                       uint32_t rings, Span<uint8_t> marked) {
-  for (uint8_t& m : marked) m = 0;
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (!is_fold(mesh, twins, h)) continue;
-    for (uint32_t k = 0; k < 3; ++k) marked[mesh.triangle[h / 3 * 3 + k]] = 1;
-  }
-  for (uint32_t ring = 1; ring <= rings; ++ring) {
-    for (size_t h = 0; h < mesh.triangle.size(); ++h) {
-      if (folds[mesh.patch[h / 3]] == 0 || marked[mesh.triangle[h]] != ring) continue;
-      for (size_t k = 0; k < 3; ++k) {
-        uint8_t& m = marked[mesh.triangle[h / 3 * 3 + k]];
-        if (m == 0) m = static_cast<uint8_t>(ring + 1);
-      }
-    }
-  }
-}
-
-static void smooth_marked(const Movable& mesh, Span<const uint8_t> marked, Span<Pull> pull) {
-  for (Pull& p : pull) p = {Vec3{}, 0.0};
-  for (uint32_t h = 0; h < mesh.triangle.size(); ++h) {
-    /* A free vertex has a triangle on each side of its edges, so this meets each neighbour once. */
-    const uint32_t a = mesh.triangle[h], b = mesh.triangle[next_half_edge(h)];
-    pull[a].sum += mesh.position[b];
-    pull[a].area += 1.0;
-  }
-  for (size_t v = 0; v < pull.size(); ++v) {
-    if (!marked[v] || mesh.held[v]) continue;
-    const Vec3 mean = (1.0 / pull[v].area) * pull[v].sum;
-    mesh.position[v] += 0.5 * (mean - mesh.position[v]);
-  }
-}
-
-static uint32_t count_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds) {
-  uint32_t all = 0;
-  for (uint32_t& f : folds) f = 0;
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] < h || !is_fold(mesh, twins, h)) continue;
-    ++folds[mesh.patch[h / 3]];
-    ++all;
-  }
-  return all;
-}
-
-Status unfold(Context& context, const Movable& mesh, Span<uint32_t> folds) {
-  Array<uint32_t> twins(context);
-  Array<uint8_t> marked(context);
-  Array<Pull> pull(context);
-  TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
-  if (count_folds(mesh, twins.span(), folds) == 0) return {};
-  TRY(marked.resize(mesh.position.size()));
-  TRY(pull.resize(mesh.position.size()));
-  for (uint32_t sweep = 0; sweep < k_unfold_sweeps; ++sweep) {
-    for (uint32_t h = 0; h < twins.size(); ++h) {
-      if (twins[h] > h && is_fold(mesh, twins.span(), h)) flip_at_fold(mesh, twins.span(), h);
-    }
-    if (count_folds(mesh, twins.span(), folds) == 0) break;
-    mark_folds(mesh, twins.span(), folds, sweep / k_sweeps_a_ring, marked.span());
-    smooth_marked(mesh, marked.span(), pull.span());
-    TRY(context.checkpoint());
-  }
-  count_folds(mesh, twins.span(), folds);
-  return {};
-}
-
-Status care(Context& context, const Movable& mesh, uint32_t* flips) {
-  Array<uint32_t> twins(context);
-  *flips = 0;
-  TRY(relax(context, mesh));
-  TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
-  for (int sweep = 0; sweep < k_flip_sweeps; ++sweep) {
-    const uint32_t before = *flips;
-    for (uint32_t h = 0; h < twins.size(); ++h) {
-      if (!wants_flip(mesh, twins.span(), h)) continue;
-      flip(mesh.triangle, twins.span(), h);
-      ++*flips;
-    }
-    TRY(context.checkpoint());
-    if (*flips == before) break;
-  }
-  return relax(context, mesh);
-}
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/care.cpp ======== */
-
-/* ======== begin src/mesh/curvature.cpp ======== */
-namespace wireskin::mesh {
-
-void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
-                    Span<Vec3> normals) {
-  for (Vec3& n : normals) n = Vec3{};
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    const Vec3& p = positions[triangles[h]];
-    const Vec3 a = positions[triangles[next_half_edge(h)]] - p;
-    const Vec3 b = positions[triangles[previous_half_edge(h)]] - p;
-    const double squares = dot(a, a) * dot(b, b);
-    if (squares > 0.0) normals[triangles[h]] += (1.0 / squares) * cross(a, b);
-  }
-  for (Vec3& n : normals) n = unit(n);
-}
-
-namespace {
-
-/* What border vertices gather from their neighbours. */
-struct Mean {
-  double sum;
-  uint32_t count;
-};
-
-}  /* namespace */
-
-/* One pass over the edges: vertices without a value take the mean of those neighbours that have */
-/* one. */
-static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> known,
-                                 Span<Mean> mean, Span<double> values) {
-  for (Mean& m : mean) m = {0.0, 0};
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t a = triangles[h], b = triangles[next_half_edge(h)];
-    if (known[a] == known[b]) continue;
-    const uint32_t from = known[a] ? a : b, to = known[a] ? b : a;
-    mean[to].sum += values[from];
-    ++mean[to].count;
-  }
-  for (size_t v = 0; v < values.size(); ++v) {
-    if (known[v] || mean[v].count == 0) continue;
-    values[v] = mean[v].sum / static_cast<double>(mean[v].count);
-    known[v] = 1;
-  }
-}
-
-Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const uint8_t> on_border,
-                   Span<double> values) {
-  bool any = false;
-  for (uint8_t border : on_border) any = any || border != 0;
-  if (!any) return {};
-  Array<uint8_t> known(context);
-  Array<Mean> mean(context);
-  TRY(known.resize(values.size()));
-  TRY(mean.resize(values.size()));
-  for (size_t v = 0; v < values.size(); ++v) known[v] = on_border[v] == 0;
-  fill_from_neighbours(triangles, known.span(), mean.span(), values);
-  fill_from_neighbours(triangles, known.span(), mean.span(), values);
-  return {};
-}
-
-Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
-                      Span<const uint32_t> triangles, Span<const uint8_t> on_border,
-                      Array<double>* curvature) {
-  Context& context = curvature->context();
-  const size_t n = positions.size();
-  Array<double> area(context);
-  TRY(curvature->assign(n, 0.0));
-  TRY(area.assign(n, 0.0));
-  for (uint32_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
-    const Vec3 normal = unit(normals[v[0]] + normals[v[1]] + normals[v[2]]);
-    const Vec3 cross_edges =
-        cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
-    const double third = length(cross_edges) / 6.0;
-    for (uint32_t k = 0; k < 3; ++k) {
-      const Vec3 edge = positions[v[(k + 2) % 3]] - positions[v[(k + 1) % 3]];
-      (*curvature)[v[k]] += dot(cross(normal, edge), normals[v[k]]);
-      area[v[k]] += third;
-    }
-  }
-  for (size_t v = 0; v < n; ++v) {
-    const bool known = !on_border[v] && area[v] > 0.0;
-    (*curvature)[v] = known ? (*curvature)[v] / (4.0 * area[v]) : 0.0;
-  }
-  return fill_border(context, triangles, on_border, curvature->span());
-}
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/curvature.cpp ======== */
-
-/* ======== begin src/mesh/check.cpp ======== */
-namespace wireskin::mesh {
-
-static Status bad_triangle(const char* sentence, size_t triangle) {
-  Place place;
-  place.triangle = static_cast<uint32_t>(triangle);
-  return fail(Code::bad_mesh, sentence, place);
-}
-
-static Status bad_vertex(Code code, const char* sentence, size_t vertex) {
-  Place place;
-  place.vertex = static_cast<uint32_t>(vertex);
-  return fail(code, sentence, place);
-}
-
-static Status check_sizes(const Expectations& mesh) {
-  const size_t triangles = mesh.triangle.size() / 3;
-  if (mesh.triangle.size() % 3 != 0 || mesh.position.size() >= k_none) {
-    return fail(Code::bad_mesh, "the triangles are not three vertices each");
-  }
-  if (!mesh.patch.empty() && mesh.patch.size() != triangles) {
-    return fail(Code::bad_mesh, "not every triangle has a patch");
-  }
-  for (size_t t = 0; t < triangles && !mesh.patch_normal.empty(); ++t) {
-    const uint32_t patch = mesh.patch.empty() ? 0 : mesh.patch[t];
-    if (patch >= mesh.patch_normal.size()) {
-      return bad_triangle("the triangle is of a patch that does not exist", t);
-    }
-  }
-  return {};
-}
-
-static bool is_finite(const Vec3& p) {
-  return std::fabs(p.x) <= DBL_MAX && std::fabs(p.y) <= DBL_MAX && std::fabs(p.z) <= DBL_MAX;
-}
-
-static Status check_positions(Span<const Vec3> position) {
-  for (size_t v = 0; v < position.size(); ++v) {
-    if (is_finite(position[v])) continue;
-    return bad_vertex(Code::not_a_number, "the vertex has a coordinate that is not finite", v);
-  }
-  return {};
-}
-
-/* Every edge of a curve must be an edge of the mesh. Each vertex's neighbours are marked with its */
-/* own number, once for all edges that it begins. */
-static Status check_edges(Context& context, const Expectations& mesh) {
-  const uint32_t vertices = static_cast<uint32_t>(mesh.position.size());
-  const size_t edges = mesh.edge.size() / 2;
-  Array<uint32_t> start(context), corner(context), first_edge(context), edge(context),
-      mark(context);
-  TRY(find_corners(vertices, mesh.triangle, &start, &corner));
-  TRY(first_edge.assign(size_t{vertices} + 1, 0));
-  TRY(edge.resize(edges));
-  TRY(mark.assign(vertices, k_none));
-  for (size_t e = 0; e < 2 * edges; ++e) {
-    if (mesh.edge[e] >= vertices) {
-      return bad_vertex(Code::index_out_of_range, "an edge names a vertex that does not exist",
-                        mesh.edge[e]);
-    }
-    if (e % 2 == 0) ++first_edge[mesh.edge[e]];
-  }
-  starts_from_counts(first_edge.span());
-  for (uint32_t e = 0; e < edges; ++e) edge[first_edge[mesh.edge[2 * e]]++] = e;
-  for (uint32_t v = 0, e = 0; v < vertices; ++v) {
-    if (e == first_edge[v]) continue;
-    for (uint32_t c = start[v]; c < start[v + 1]; ++c) {
-      mark[mesh.triangle[next_half_edge(corner[c])]] = v;
-      mark[mesh.triangle[previous_half_edge(corner[c])]] = v;
-    }
-    for (; e < first_edge[v]; ++e) {
-      if (mark[mesh.edge[2 * edge[e] + 1]] == v) continue;
-      return bad_vertex(Code::bad_mesh, "an edge of a curve that begins here is not in the mesh",
-                        v);
-    }
-  }
-  return {};
-}
-
-static Vec3 area_vector(const Expectations& mesh, size_t t) {
-  const Vec3& a = mesh.position[mesh.triangle[3 * t]];
-  return cross(mesh.position[mesh.triangle[3 * t + 1]] - a,
-               mesh.position[mesh.triangle[3 * t + 2]] - a);
-}
-
-/* A triangle's height over its longest edge is its doubled area over that edge's length. */
-static Status check_shapes(const Expectations& mesh) {
-  for (size_t t = 0; t < mesh.triangle.size() / 3; ++t) {
-    const Vec3& a = mesh.position[mesh.triangle[3 * t]];
-    const Vec3& b = mesh.position[mesh.triangle[3 * t + 1]];
-    const Vec3& c = mesh.position[mesh.triangle[3 * t + 2]];
-    const double longest2 = larger(dot(b - a, b - a), larger(dot(c - b, c - b), dot(a - c, a - c)));
-    const Vec3 area = area_vector(mesh, t);
-    if (!(length(area) > k_least_height * longest2)) {
-      return bad_triangle("the triangle has no area", t);
-    }
-    if (mesh.patch_normal.empty()) continue;
-    const Vec3& normal = mesh.patch_normal[mesh.patch.empty() ? 0 : mesh.patch[t]];
-    if (dot(area, normal) < 0.0) return bad_triangle("the triangle faces against its patch", t);
-  }
-  return {};
-}
-
-static Status check_folds(const Expectations& mesh, Span<const uint32_t> twins) {
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] == k_none || twins[h] < h) continue;
-    const uint32_t t = h / 3, other = twins[h] / 3;
-    if (!mesh.patch.empty() && mesh.patch[t] != mesh.patch[other]) continue;
-    const Vec3 normal = unit(area_vector(mesh, t));
-    if (dot(normal, unit(area_vector(mesh, other))) < k_folded_cosine) {
-      return bad_triangle("the triangle is folded onto its neighbour", t);
-    }
-  }
-  return {};
-}
-
-Status check(Context& context, const Expectations& mesh) {
-  Array<uint32_t> twins(context);
-  Topology topology(context);
-  const uint32_t vertices = static_cast<uint32_t>(mesh.position.size());
-  TRY(check_sizes(mesh));
-  TRY(find_twins(vertices, mesh.triangle, &twins));
-  TRY(find_topology(vertices, mesh.triangle, twins.span(), &topology));
-  TRY(check_edges(context, mesh));
-  if (mesh.euler_characteristic != nullptr &&
-      topology.euler_characteristic != *mesh.euler_characteristic) {
-    return fail(Code::bad_mesh, "the mesh has another Euler characteristic than its network");
-  }
-  TRY(check_positions(mesh.position));
-  TRY(check_shapes(mesh));
-  return mesh.may_fold ? Status{} : check_folds(mesh, twins.span());
-}
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/check.cpp ======== */
-
-/* ======== begin src/mesh/cut.cpp ======== */
-namespace wireskin::mesh {
-
-/* The clockwise-most corner of the sector of corner h, a half-edge that leaves its vertex: cuts and */
-/* borders end the walk, or else it comes back to h. */
-static uint32_t first_of_sector(Span<const uint32_t> twins, Span<const uint8_t> marked,
-                                uint32_t h) {
-  uint32_t g = h;
-  while (!marked[g] && twins[g] != k_none) {
-    g = next_half_edge(twins[g]);
-    if (g == h) break;
-  }
-  return g;
-}
-
-Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint8_t> marked,
-                Cut* cut) {
-  Array<uint32_t> twins(cut->origin.context());
-  Array<uint8_t> taken(cut->origin.context());
-  TRY(find_twins(vertices, triangles, &twins));
-  TRY(taken.assign(vertices, 0));
-  TRY(cut->triangle.assign(triangles.size(), k_none));
-  TRY(cut->origin.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
-    if (cut->triangle[h] != k_none) continue;
-    const uint32_t v = triangles[h];
-    uint32_t copy = v;
-    if (taken[v]) {
-      copy = cut->vertices();
-      TRY(cut->origin.push(v));
-    }
-    taken[v] = 1;
-    const uint32_t first = first_of_sector(twins.span(), marked, h);
-    for (uint32_t g = first; g != k_none;) {
-      cut->triangle[g] = copy;
-      const uint32_t across = previous_half_edge(g);
-      g = marked[across] ? k_none : twins[across];
-      if (g == first) break;
-    }
-  }
-  return {};
-}
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/cut.cpp ======== */
 
 /* ======== begin src/mesh/loop_mesh.cpp ======== */
 namespace wireskin::mesh {
@@ -17484,102 +20516,834 @@ Status mesh_loop(Context& context, Span<const Vec3> position, Span<const Vec3> n
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/loop_mesh.cpp ======== */
 
-/* ======== begin src/mesh/dome.cpp ======== */
+/* ======== begin src/mesh/band.cpp ======== */
 namespace wireskin::mesh {
 
-/* Half the lengths of both rim edges at each loop vertex times the conormal there. */
-static Status integrate_conormals(const Loops& loops, Span<Vec3> flux, Span<double> weight) {
-  for (uint32_t l = 0; l < loops.count(); ++l) {
-    for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
-      const Vec3 along = loops.position[loops.next(l, v)] - loops.position[v];
-      const Vec3 back = loops.position[loops.previous(l, v)] - loops.position[v];
-      const Vec3 conormal = unit(cross(loops.normal[v], unit(along) - unit(back)));
-      flux[v] = 0.5 * (length(along) + length(back)) * conormal;
-      if (loops.normal[v] == Vec3{}) weight[v] = 0.0;
+static constexpr uint32_t k_probes = 48;
+
+namespace {
+
+/* One loop by its share of arc length; the second loop of a band is walked against its direction, */
+/* so that both walks go the same way round. */
+struct Walk {
+  Array<uint32_t> vertex;
+  Array<double> share;  /* of each vertex, from 0, below 1 */
+  Array<Vec3> position, conormal;
+  double length = 0.0;
+
+  explicit Walk(Context& context)
+      : vertex(context), share(context), position(context), conormal(context) {}
+};
+
+/* A place of both loops that belong together; shares go on beyond 1 on the second time round. */
+struct Match {
+  double a, b;
+};
+
+struct WalkPlace {
+  Vec3 position, conormal;
+};
+
+}  /* namespace */
+
+static Status take_walk(const Loops& loops, uint32_t loop, bool backward, Walk* walk) {
+  const uint32_t first = loops.start[loop], n = loops.start[loop + 1] - first;
+  for (uint32_t i = 0; i < n; ++i) {
+    const uint32_t v = first + (backward ? (n - i) % n : i);
+    const Vec3 along =
+        loops.position[loops.next(loop, v)] - loops.position[loops.previous(loop, v)];
+    const uint32_t next = backward ? loops.previous(loop, v) : loops.next(loop, v);
+    TRY(walk->vertex.push(v));
+    TRY(walk->share.push(walk->length));
+    TRY(walk->position.push(loops.position[v]));
+    TRY(walk->conormal.push(unit(cross(loops.normal[v], along))));
+    walk->length += length(loops.position[next] - loops.position[v]);
+  }
+  for (double& share : walk->share) share /= walk->length;
+  return {};
+}
+
+static double fraction(double share) {
+  const double rest = share - static_cast<double>(static_cast<int64_t>(share));
+  return rest < 0.0 ? rest + 1.0 : rest;
+}
+
+static WalkPlace place_at(const Walk& walk, double share) {
+  const double at = fraction(share);
+  size_t low = 0, high = walk.share.size();
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    (walk.share[middle] <= at ? low : high) = middle;
+  }
+  const size_t next = low + 1 < walk.share.size() ? low + 1 : 0;
+  const double end = next == 0 ? 1.0 : walk.share[next];
+  const double t = end > walk.share[low] ? (at - walk.share[low]) / (end - walk.share[low]) : 0.0;
+  return {(1.0 - t) * walk.position[low] + t * walk.position[next],
+          unit((1.0 - t) * walk.conormal[low] + t * walk.conormal[next])};
+}
+
+namespace {
+
+/* The walk's table: from places (0, offset) to (k_probes, offset + k_probes). */
+struct WalkTable {
+  Array<double> distance;  /* squared, of places i and j at i * k_probes + j */
+  Array<double> cost;      /* at i * (k_probes + 1) + j */
+  Array<uint8_t> step;     /* 0 both, 1 the first, 2 the second */
+  Array<uint8_t> best_step;
+
+  explicit WalkTable(Context& context)
+      : distance(context), cost(context), step(context), best_step(context) {}
+};
+
+}  /* namespace */
+
+static double fill_table(uint32_t offset, WalkTable* table) {
+  constexpr uint32_t n = k_probes, width = n + 1;
+  for (uint32_t i = 0; i <= n; ++i) {
+    for (uint32_t j = 0; j <= n; ++j) {
+      const double own = table->distance[i % n * n + (j + offset) % n];
+      double least = i + j == 0 ? 0.0 : DBL_MAX;
+      uint8_t step = 0;
+      if (i > 0 && j > 0) least = table->cost[(i - 1) * width + j - 1];
+      if (i > 0 && table->cost[(i - 1) * width + j] < least) {
+        least = table->cost[(i - 1) * width + j];
+        step = 1;
+      }
+      if (j > 0 && table->cost[i * width + j - 1] < least) {
+        least = table->cost[i * width + j - 1];
+        step = 2;
+      }
+      table->cost[i * width + j] = least + own;
+      table->step[i * width + j] = step;
     }
+  }
+  return table->cost[n * width + n];
+}
+
+/* The matches in order, the first one again at the end, once round later. */
+static Status match_walks(const Walk& a, const Walk& b, Array<Match>* matches) {
+  constexpr uint32_t n = k_probes, width = n + 1;
+  WalkTable table(matches->context());
+  TRY(table.distance.resize(size_t{n} * n));
+  TRY(table.cost.resize(size_t{width} * width));
+  TRY(table.step.resize(size_t{width} * width));
+  TRY(table.best_step.resize(size_t{width} * width));
+  for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t j = 0; j < n; ++j) {
+      const Vec3 way = place_at(b, static_cast<double>(j) / n).position -
+                       place_at(a, static_cast<double>(i) / n).position;
+      table.distance[i * n + j] = dot(way, way);
+    }
+  }
+  double least = DBL_MAX;
+  uint32_t offset = 0;
+  for (uint32_t o = 0; o < n; ++o) {
+    const double cost = fill_table(o, &table);
+    if (!(cost < least)) continue;
+    least = cost;
+    offset = o;
+    TRY(table.best_step.copy(table.step.span()));
+  }
+  TRY(matches->context().checkpoint());
+  /* Backwards from the end; the middle of every step is a match, so that corners are cut. */
+  uint32_t i = n, j = n;
+  while (i + j > 0) {
+    const uint8_t step = table.best_step[i * width + j];
+    const double back_a = step == 2 ? 0.0 : 0.5, back_b = step == 1 ? 0.0 : 0.5;
+    TRY(matches->push({(i - back_a) / n, (j + offset - back_b) / n}));
+    i -= step == 2 ? 0 : 1;
+    j -= step == 1 ? 0 : 1;
+  }
+  for (size_t k = 0, l = matches->size() - 1; k < l; ++k, --l) {
+    const Match kept = (*matches)[k];
+    (*matches)[k] = (*matches)[l];
+    (*matches)[l] = kept;
+  }
+  const Match first = (*matches)[0];
+  return matches->push({first.a + 1.0, first.b + 1.0});
+}
+
+/* From a share of one loop to that of the other. */
+static double matched(Span<const Match> matches, double share, bool from_b) {
+  const double first = from_b ? matches[0].b : matches[0].a;
+  double at = share;
+  while (at < first) at += 1.0;
+  while (at >= first + 1.0) at -= 1.0;
+  size_t low = 0, high = matches.size() - 1;
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    ((from_b ? matches[middle].b : matches[middle].a) <= at ? low : high) = middle;
+  }
+  const Match &m = matches[low], &n = matches[low + 1];
+  const double begin = from_b ? m.b : m.a, end = from_b ? n.b : n.a;
+  const double t = end > begin ? (at - begin) / (end - begin) : 0.0;
+  return from_b ? m.a + t * (n.a - m.a) : m.b + t * (n.b - m.b);
+}
+
+/* The end tangent's length of a cubic that comes near a circular arc over this chord. */
+static Vec3 arc_tangent_of(const Vec3& conormal, const Vec3& chord) {
+  if (conormal == Vec3{}) return chord;
+  const double cosine = dot(conormal, unit(chord));
+  return (2.0 * length(chord) / (1.0 + larger(cosine, 0.0))) * conormal;
+}
+
+static Vec3 band_point(const WalkPlace& a, const WalkPlace& b, double t) {
+  const Vec3 chord = b.position - a.position;
+  const Vec3 from = arc_tangent_of(a.conormal, chord), to = arc_tangent_of(-b.conormal, chord);
+  const double s = 1.0 - t;
+  return s * s * (1.0 + 2.0 * t) * a.position + t * t * (1.0 + 2.0 * s) * b.position +
+         t * s * s * from - t * t * s * to;
+}
+
+namespace {
+
+/* Points in their order round the band, by the share of the first loop where each belongs. */
+struct Row {
+  Array<uint32_t> vertex;
+  Array<double> share;  /* ascending, over less than one round */
+
+  explicit Row(Context& context) : vertex(context), share(context) {}
+};
+
+}  /* namespace */
+
+/* Triangles between neighbouring rows: whichever row's next point comes first goes on. */
+static Status zip_rows(const Row& lower, const Row& upper, Array<uint32_t>* triangle) {
+  const size_t n = lower.vertex.size(), m = upper.vertex.size();
+  const auto share = [](const Row& row, size_t i) {
+    return row.share[i % row.share.size()] + (i < row.share.size() ? 0.0 : 1.0);
+  };
+  for (size_t i = 0, j = 0; i < n || j < m;) {
+    const bool low = j == m || (i < n && share(lower, i + 1) <= share(upper, j + 1));
+    const uint32_t l = lower.vertex[i % n], u = upper.vertex[j % m];
+    TRY(triangle->push(l));
+    TRY(triangle->push(low ? lower.vertex[(i + 1) % n] : upper.vertex[(j + 1) % m]));
+    TRY(triangle->push(u));
+    ++(low ? i : j);
   }
   return {};
 }
 
-/* Of the loops in the mean, positive where they bend away from their normals. */
-static double normal_curvature(const Loops& loops) {
-  double turning = 0.0, total = 0.0;
-  for (uint32_t l = 0; l < loops.count(); ++l) {
-    for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
-      const Vec3 along = loops.position[loops.next(l, v)] - loops.position[v];
-      const Vec3 back = loops.position[loops.previous(l, v)] - loops.position[v];
-      if (loops.normal[v] == Vec3{}) continue;
-      turning -= dot(unit(along) + unit(back), loops.normal[v]);
-      total += 0.5 * (length(along) + length(back));
+/* The loop's vertices by the share of the first loop, from the least share on. */
+static Status row_of_loop(const Walk& walk, Span<const Match> matches, bool second, Row* row) {
+  const size_t n = walk.vertex.size();
+  Array<double> own(row->share.context());
+  size_t first = 0;
+  for (size_t i = 0; i < n; ++i) {
+    TRY(own.push(fraction(second ? matched(matches, walk.share[i], true) : walk.share[i])));
+    if (own[i] < own[first]) first = i;
+  }
+  /* Of vertices matched to one place the one that follows another place is first. */
+  while (second && own[first] == own[(first + n - 1) % n]) first = (first + n - 1) % n;
+  for (size_t i = 0; i < n; ++i) {
+    const size_t k = (first + i) % n;
+    double share = own[k];
+    if (i > 0 && share < row->share[i - 1]) share = row->share[i - 1];  /* rounding */
+    TRY(row->vertex.push(walk.vertex[k]));
+    TRY(row->share.push(share));
+  }
+  return {};
+}
+
+static double mean_way_across(const Walk& a, const Walk& b, Span<const Match> matches) {
+  double sum = 0.0;
+  for (const Match& m : matches.part(0, matches.size() - 1)) {
+    const WalkPlace from = place_at(a, m.a), to = place_at(b, m.b);
+    const Vec3 middle = band_point(from, to, 0.5);
+    sum += length(middle - from.position) + length(to.position - middle);
+  }
+  return sum / static_cast<double>(matches.size() - 1);
+}
+
+static Status fill_row(const Walk& a, const Walk& b, Span<const Match> matches, uint32_t points,
+                       double t, double offset, Row* row, LoopMesh* mesh) {
+  const uint32_t rim = static_cast<uint32_t>(a.vertex.size() + b.vertex.size());
+  row->vertex.clear();
+  row->share.clear();
+  for (uint32_t i = 0; i < points; ++i) {
+    const double share = (i + offset) / points;
+    TRY(row->vertex.push(rim + static_cast<uint32_t>(mesh->inner.size())));
+    TRY(row->share.push(share));
+    TRY(mesh->inner.push(
+        band_point(place_at(a, share), place_at(b, matched(matches, share, false)), t)));
+  }
+  return mesh->inner.context().checkpoint();
+}
+
+static Status check_band(const Walk& a, const Walk& b, double spacing) {
+  if (!(spacing > 0.0) || spacing > DBL_MAX) {
+    return fail(Code::bad_argument, "the spacing is not a positive number");
+  }
+  if (a.vertex.size() < 3 || b.vertex.size() < 3) {
+    return fail(Code::patch_folded, "the border has fewer than three points");
+  }
+  if (!(a.length > 0.0) || !(b.length > 0.0)) {
+    return fail(Code::patch_folded, "the border of the patch encloses no area");
+  }
+  return {};
+}
+
+Status mesh_band(Context& context, const Loops& loops, double spacing, LoopMesh* mesh) {
+  constexpr double k_most_points = 5e7, k_least_round = 8.0, k_least_rows = 2.0;
+  constexpr double k_row_height = 0.866;  /* of rows of equilateral triangles */
+  Walk a(context), b(context);
+  Array<Match> matches(context);
+  Row lower(context), upper(context), last(context);
+  WIRESKIN_ASSERT(loops.count() == 2);
+  TRY(take_walk(loops, 0, false, &a));
+  TRY(take_walk(loops, 1, true, &b));
+  TRY(check_band(a, b, spacing));
+  TRY(match_walks(a, b, &matches));
+  const double round = larger(k_least_round, larger(a.length, b.length) / spacing + 0.5);
+  const double rows =
+      larger(k_least_rows, mean_way_across(a, b, matches.span()) / (k_row_height * spacing) + 0.5);
+  if (!(round * rows < k_most_points)) {
+    return fail(Code::too_large, "the spacing is too small for the size of the patch");
+  }
+  const uint32_t row_count = static_cast<uint32_t>(rows), points = static_cast<uint32_t>(round);
+  mesh->inner.clear();
+  mesh->triangle.clear();
+  TRY(row_of_loop(a, matches.span(), false, &lower));
+  for (uint32_t k = 1; k < row_count; ++k) {
+    TRY(fill_row(a, b, matches.span(), points, static_cast<double>(k) / row_count,
+                 k % 2 == 0 ? 0.0 : 0.5, &upper, mesh));
+    TRY(zip_rows(lower, upper, &mesh->triangle));
+    TRY(lower.vertex.copy(upper.vertex.span()));
+    TRY(lower.share.copy(upper.share.span()));
+  }
+  TRY(row_of_loop(b, matches.span(), true, &last));
+  return zip_rows(lower, last, &mesh->triangle);
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/band.cpp ======== */
+
+/* ======== begin src/mesh/care.cpp ======== */
+namespace wireskin::mesh {
+
+static constexpr int k_relax_sweeps = 5;
+static constexpr int k_flip_sweeps = 6;
+static constexpr uint32_t k_unfold_sweeps = 40, k_sweeps_a_ring = 5;
+
+namespace {
+
+/* Where each vertex is drawn to. */
+struct Pull {
+  Vec3 sum;
+  double area;
+};
+
+/* The two triangles at an edge: a -> b is the edge, c and d the vertices opposite to it. */
+struct Quad {
+  uint32_t a, b, c, d;
+};
+
+}  /* namespace */
+
+static void relax_once(const Movable& mesh, Span<Vec3> normal, Span<Pull> pull) {
+  vertex_normals(mesh.position, mesh.triangle, normal);
+  for (Pull& p : pull) p = {Vec3{}, 0.0};
+  for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
+    const uint32_t* v = &mesh.triangle[t];
+    const Vec3 &a = mesh.position[v[0]], &b = mesh.position[v[1]], &c = mesh.position[v[2]];
+    const double area = length(cross(b - a, c - a));
+    const Vec3 weighted = area * ((1.0 / 3.0) * (a + b + c));
+    for (int k = 0; k < 3; ++k) {
+      pull[v[k]].sum += weighted;
+      pull[v[k]].area += area;
     }
   }
-  return total > 0.0 ? turning / total : 0.0;
-}
-
-/* y = A x for a symmetric matrix with both halves stored: column j is row j. */
-static void multiply_points(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
-  for (uint32_t j = 0; j < a.cols; ++j) {
-    Vec3 sum;
-    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
-    y[j] = sum;
+  for (size_t v = 0; v < pull.size(); ++v) {
+    if (mesh.held[v] || !(pull[v].area > 0.0)) continue;
+    const Vec3 step = (1.0 / pull[v].area) * pull[v].sum - mesh.position[v];
+    mesh.position[v] += 0.5 * reject(step, normal[v]);
   }
 }
 
-Status raise_dome(Context& context, const Loops& loops, Span<const uint32_t> triangle,
-                  Span<Vec3> position) {
-  const uint32_t n = static_cast<uint32_t>(position.size());
-  const uint32_t rim = loops.start[loops.count()];
-  if (rim == n) return {};
-  Array<TriangleShape> shape(context);
+static Status relax(Context& context, const Movable& mesh) {
+  Array<Vec3> normal(context);
+  Array<Pull> pull(context);
+  TRY(normal.resize(mesh.position.size()));
+  TRY(pull.resize(mesh.position.size()));
+  for (int sweep = 0; sweep < k_relax_sweeps; ++sweep) {
+    relax_once(mesh, normal.span(), pull.span());
+    TRY(context.checkpoint());
+  }
+  return {};
+}
+
+static Quad quad_at(Span<const uint32_t> triangle, uint32_t h, uint32_t g) {
+  return {triangle[h], triangle[g], triangle[previous_half_edge(h)],
+          triangle[previous_half_edge(g)]};
+}
+
+/* The cotangent of the angle at p in the triangle p, q, r. */
+static double cotangent_at(const Vec3& p, const Vec3& q, const Vec3& r) {
+  return dot(q - p, r - p) / length(cross(q - p, r - p));
+}
+
+static bool has_edge(Span<const uint32_t> triangle, Span<const uint32_t> twins,
+                     uint32_t from_half_edge, uint32_t to) {
+  /* Round the origin of the half-edge in both directions, because a border may end the walk. */
+  uint32_t h = from_half_edge;
+  do {
+    if (triangle[next_half_edge(h)] == to || triangle[previous_half_edge(h)] == to) return true;
+    h = twins[previous_half_edge(h)];
+  } while (h != k_none && h != from_half_edge);
+  for (h = twins[from_half_edge]; h != k_none;) {
+    h = next_half_edge(h);
+    if (h == from_half_edge) break;
+    if (triangle[next_half_edge(h)] == to || triangle[previous_half_edge(h)] == to) return true;
+    h = twins[h];
+  }
+  return false;
+}
+
+static bool wants_flip(const Movable& mesh, Span<const uint32_t> twins, uint32_t h) {
+  const uint32_t g = twins[h];
+  if (g == k_none || g < h || mesh.patch[h / 3] != mesh.patch[g / 3]) return false;
+  const Quad q = quad_at(mesh.triangle, h, g);
+  if ((mesh.held[q.a] && mesh.held[q.b]) || (mesh.held[q.c] && mesh.held[q.d])) return false;
+  const Vec3 &a = mesh.position[q.a], &b = mesh.position[q.b];
+  const Vec3 &c = mesh.position[q.c], &d = mesh.position[q.d];
+  constexpr double k_rounding = 1e-9;
+  if (!(cotangent_at(c, a, b) + cotangent_at(d, a, b) < -k_rounding)) return false;
+  const Vec3 facing = unit(cross(b - a, c - a)) + unit(cross(a - b, d - b));
+  if (!(dot(cross(d - a, c - a), facing) > 0.0) || !(dot(cross(b - d, c - d), facing) > 0.0)) {
+    return false;
+  }
+  return !has_edge(mesh.triangle, twins, previous_half_edge(h), q.d);
+}
+
+/* Turns the edge of half-edge h: triangles a b c and b a d become a d c and d b c. */
+static void flip(Span<uint32_t> triangle, Span<uint32_t> twins, uint32_t h) {
+  const uint32_t g = twins[h];
+  const Quad q = quad_at(triangle, h, g);
+  const uint32_t t = h / 3 * 3, s = g / 3 * 3;
+  const uint32_t outer[4] = {twins[next_half_edge(g)], twins[previous_half_edge(g)],
+                             twins[next_half_edge(h)], twins[previous_half_edge(h)]};
+  const uint32_t slot[4] = {t, s, s + 1, t + 2};  /* a d, d b, b c, c a */
+  triangle[t] = q.a, triangle[t + 1] = q.d, triangle[t + 2] = q.c;
+  triangle[s] = q.d, triangle[s + 1] = q.b, triangle[s + 2] = q.c;
+  for (int k = 0; k < 4; ++k) {
+    twins[slot[k]] = outer[k];
+    if (outer[k] != k_none) twins[outer[k]] = slot[k];
+  }
+  twins[t + 1] = s + 2;
+  twins[s + 2] = t + 1;
+}
+
+static Vec3 facing_of(const Movable& mesh, uint32_t t) {
+  const uint32_t* v = &mesh.triangle[size_t{3} * t];
+  const Vec3& a = mesh.position[v[0]];
+  return cross(mesh.position[v[1]] - a, mesh.position[v[2]] - a);
+}
+
+/* Whether the two triangles at half-edge h face against each other, in one patch, at an edge that */
+/* is not between held vertices. */
+static bool is_fold(const Movable& mesh, Span<const uint32_t> twins, uint32_t h) {
+  const uint32_t g = twins[h];
+  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return false;
+  if (mesh.held[mesh.triangle[h]] && mesh.held[mesh.triangle[g]]) return false;
+  return dot(facing_of(mesh, h / 3), facing_of(mesh, g / 3)) < 0.0;
+}
+
+/* How much the surface turns between two facings, so that a turn shared by two edges costs less. */
+static double turn_between(const Vec3& a, const Vec3& b) {
+  const double turn = 1.0 - dot(unit(a), unit(b));
+  return turn * turn;
+}
+
+/* The turn between a facing at half-edge h and the triangle beyond, none at the rim of the patch. */
+static double turn_beyond(const Movable& mesh, Span<const uint32_t> twins, uint32_t h,
+                          const Vec3& facing) {
+  const uint32_t g = twins[h];
+  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return 0.0;
+  if (mesh.held[mesh.triangle[h]] && mesh.held[mesh.triangle[g]]) return 0.0;
+  return turn_between(facing, facing_of(mesh, g / 3));
+}
+
+/* Flips an edge if the surface then turns less at it and at the four round it. */
+static bool flip_to_turn_less(const Movable& mesh, Span<uint32_t> twins, uint32_t h) {
+  const uint32_t g = twins[h];
+  if (g == k_none || mesh.patch[h / 3] != mesh.patch[g / 3]) return false;
+  const Quad q = quad_at(mesh.triangle, h, g);
+  if ((mesh.held[q.a] && mesh.held[q.b]) || (mesh.held[q.c] && mesh.held[q.d])) return false;
+  if (has_edge(mesh.triangle, twins, previous_half_edge(h), q.d)) return false;
+  const Vec3 &a = mesh.position[q.a], &b = mesh.position[q.b];
+  const Vec3 &c = mesh.position[q.c], &d = mesh.position[q.d];
+  const Vec3 abc = cross(b - a, c - a), bad = cross(a - b, d - b);
+  const Vec3 adc = cross(d - a, c - a), dbc = cross(b - d, c - d);
+  const uint32_t ad = next_half_edge(g), db = previous_half_edge(g), bc = next_half_edge(h),
+                 ca = previous_half_edge(h);
+  const auto beyond = [&](uint32_t edge, const Vec3& facing) {
+    return turn_beyond(mesh, twins, edge, facing);
+  };
+  const double before = turn_between(abc, bad) + beyond(ad, bad) + beyond(db, bad) +
+                        beyond(bc, abc) + beyond(ca, abc);
+  const double after = turn_between(adc, dbc) + beyond(ad, adc) + beyond(ca, adc) +
+                       beyond(db, dbc) + beyond(bc, dbc);
+  if (!(after < 0.99 * before)) return false;
+  flip(mesh.triangle, twins, h);
+  return true;
+}
+
+/* Flips the edge of a fold or one of the four round it: where a curve makes a hairpin the surface */
+/* has to turn round its tip, and does so in steps if more edges end there. */
+static void flip_at_fold(const Movable& mesh, Span<uint32_t> twins, uint32_t h) {
+  if (flip_to_turn_less(mesh, twins, h)) return;
+  const uint32_t g = twins[h];
+  const uint32_t round[4] = {next_half_edge(h), previous_half_edge(h), next_half_edge(g),
+                             previous_half_edge(g)};
+  for (uint32_t edge : round) {
+    if (flip_to_turn_less(mesh, twins, edge)) return;
+  }
+}
+
+/* Marks the free vertices round the folds, and those `rings` further out in the same patch. */
+static void mark_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds,
+                       uint32_t rings, Span<uint8_t> marked) {
+  for (uint8_t& m : marked) m = 0;
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (!is_fold(mesh, twins, h)) continue;
+    for (uint32_t k = 0; k < 3; ++k) marked[mesh.triangle[h / 3 * 3 + k]] = 1;
+  }
+  for (uint32_t ring = 1; ring <= rings; ++ring) {
+    for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+      if (folds[mesh.patch[h / 3]] == 0 || marked[mesh.triangle[h]] != ring) continue;
+      for (size_t k = 0; k < 3; ++k) {
+        uint8_t& m = marked[mesh.triangle[h / 3 * 3 + k]];
+        if (m == 0) m = static_cast<uint8_t>(ring + 1);
+      }
+    }
+  }
+}
+
+static void smooth_marked(const Movable& mesh, Span<const uint8_t> marked, Span<Pull> pull) {
+  for (Pull& p : pull) p = {Vec3{}, 0.0};
+  for (uint32_t h = 0; h < mesh.triangle.size(); ++h) {
+    /* A free vertex has a triangle on each side of its edges, so this meets each neighbour once. */
+    const uint32_t a = mesh.triangle[h], b = mesh.triangle[next_half_edge(h)];
+    pull[a].sum += mesh.position[b];
+    pull[a].area += 1.0;
+  }
+  for (size_t v = 0; v < pull.size(); ++v) {
+    if (!marked[v] || mesh.held[v]) continue;
+    const Vec3 mean = (1.0 / pull[v].area) * pull[v].sum;
+    mesh.position[v] += 0.5 * (mean - mesh.position[v]);
+  }
+}
+
+static uint32_t count_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds) {
+  uint32_t all = 0;
+  for (uint32_t& f : folds) f = 0;
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] < h || !is_fold(mesh, twins, h)) continue;
+    ++folds[mesh.patch[h / 3]];
+    ++all;
+  }
+  return all;
+}
+
+Status unfold(Context& context, const Movable& mesh, Span<uint32_t> folds) {
+  Array<uint32_t> twins(context);
+  Array<uint8_t> marked(context);
+  Array<Pull> pull(context);
+  TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
+  if (count_folds(mesh, twins.span(), folds) == 0) return {};
+  TRY(marked.resize(mesh.position.size()));
+  TRY(pull.resize(mesh.position.size()));
+  for (uint32_t sweep = 0; sweep < k_unfold_sweeps; ++sweep) {
+    for (uint32_t h = 0; h < twins.size(); ++h) {
+      if (twins[h] > h && is_fold(mesh, twins.span(), h)) flip_at_fold(mesh, twins.span(), h);
+    }
+    if (count_folds(mesh, twins.span(), folds) == 0) break;
+    mark_folds(mesh, twins.span(), folds, sweep / k_sweeps_a_ring, marked.span());
+    smooth_marked(mesh, marked.span(), pull.span());
+    TRY(context.checkpoint());
+  }
+  count_folds(mesh, twins.span(), folds);
+  return {};
+}
+
+Status care(Context& context, const Movable& mesh, uint32_t* flips) {
+  Array<uint32_t> twins(context);
+  *flips = 0;
+  TRY(relax(context, mesh));
+  TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
+  for (int sweep = 0; sweep < k_flip_sweeps; ++sweep) {
+    const uint32_t before = *flips;
+    for (uint32_t h = 0; h < twins.size(); ++h) {
+      if (!wants_flip(mesh, twins.span(), h)) continue;
+      flip(mesh.triangle, twins.span(), h);
+      ++*flips;
+    }
+    TRY(context.checkpoint());
+    if (*flips == before) break;
+  }
+  return relax(context, mesh);
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/care.cpp ======== */
+
+/* ======== begin src/mesh/curvature.cpp ======== */
+namespace wireskin::mesh {
+
+void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
+                    Span<Vec3> normals) {
+  for (Vec3& n : normals) n = Vec3{};
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    const Vec3& p = positions[triangles[h]];
+    const Vec3 a = positions[triangles[next_half_edge(h)]] - p;
+    const Vec3 b = positions[triangles[previous_half_edge(h)]] - p;
+    const double squares = dot(a, a) * dot(b, b);
+    if (squares > 0.0) normals[triangles[h]] += (1.0 / squares) * cross(a, b);
+  }
+  for (Vec3& n : normals) n = unit(n);
+}
+
+namespace {
+
+/* What border vertices gather from their neighbours. */
+struct Mean {
+  double sum;
+  uint32_t count;
+};
+
+}  /* namespace */
+
+/* One pass over the edges: vertices without a value take the mean of those neighbours that have */
+/* one. */
+static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> known,
+                                 Span<Mean> mean, Span<double> values) {
+  for (Mean& m : mean) m = {0.0, 0};
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    const uint32_t a = triangles[h], b = triangles[next_half_edge(h)];
+    if (known[a] == known[b]) continue;
+    const uint32_t from = known[a] ? a : b, to = known[a] ? b : a;
+    mean[to].sum += values[from];
+    ++mean[to].count;
+  }
+  for (size_t v = 0; v < values.size(); ++v) {
+    if (known[v] || mean[v].count == 0) continue;
+    values[v] = mean[v].sum / static_cast<double>(mean[v].count);
+    known[v] = 1;
+  }
+}
+
+Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const uint8_t> on_border,
+                   Span<double> values) {
+  bool any = false;
+  for (uint8_t border : on_border) any = any || border != 0;
+  if (!any) return {};
+  Array<uint8_t> known(context);
+  Array<Mean> mean(context);
+  TRY(known.resize(values.size()));
+  TRY(mean.resize(values.size()));
+  for (size_t v = 0; v < values.size(); ++v) known[v] = on_border[v] == 0;
+  fill_from_neighbours(triangles, known.span(), mean.span(), values);
+  fill_from_neighbours(triangles, known.span(), mean.span(), values);
+  return {};
+}
+
+Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
+                      Span<const uint32_t> triangles, Span<const uint8_t> on_border,
+                      Array<double>* curvature) {
+  Context& context = curvature->context();
+  const size_t n = positions.size();
+  Array<double> area(context);
+  TRY(curvature->assign(n, 0.0));
+  TRY(area.assign(n, 0.0));
+  for (uint32_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t* v = &triangles[t];
+    const Vec3 normal = unit(normals[v[0]] + normals[v[1]] + normals[v[2]]);
+    const Vec3 cross_edges =
+        cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
+    const double third = length(cross_edges) / 6.0;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const Vec3 edge = positions[v[(k + 2) % 3]] - positions[v[(k + 1) % 3]];
+      (*curvature)[v[k]] += dot(cross(normal, edge), normals[v[k]]);
+      area[v[k]] += third;
+    }
+  }
+  for (size_t v = 0; v < n; ++v) {
+    const bool known = !on_border[v] && area[v] > 0.0;
+    (*curvature)[v] = known ? (*curvature)[v] / (4.0 * area[v]) : 0.0;
+  }
+  return fill_border(context, triangles, on_border, curvature->span());
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/curvature.cpp ======== */
+
+/* ======== begin src/mesh/chart.cpp ======== */
+namespace wireskin::mesh {
+
+/* Angles between 3 and 87 degrees count as they are. */
+static constexpr double k_least_cotangent = 0.05, k_greatest_cotangent = 20.0;
+static constexpr double k_cotangent_of_fan = 0.577;
+
+namespace {
+
+/* The mesh with its holes closed by fans, and which vertices the system moves. */
+struct ClosedChart {
+  uint32_t vertices = 0;
+  Array<uint32_t> triangle;
+  Array<TriangleShape> shape;
+  Array<uint32_t> unknown;
+  uint32_t unknowns = 0;
+
+  explicit ClosedChart(Context& context) : triangle(context), shape(context), unknown(context) {}
+};
+
+}  /* namespace */
+
+static uint32_t next_of_loop(Span<const uint32_t> start, size_t loop, uint32_t v) {
+  return v + 1 == start[loop + 1] ? start[loop] : v + 1;
+}
+
+static size_t longest_loop(Span<const uint32_t> start, Span<const Vec3> position) {
+  size_t longest = 0;
+  double greatest = -1.0;
+  for (size_t l = 0; l + 1 < start.size(); ++l) {
+    double sum = 0.0;
+    for (uint32_t v = start[l]; v < start[l + 1]; ++v) {
+      sum += length(position[next_of_loop(start, l, v)] - position[v]);
+    }
+    if (sum > greatest) {
+      greatest = sum;
+      longest = l;
+    }
+  }
+  return longest;
+}
+
+/* The point of the unit circle that is about this share of the way round: each quarter by its */
+/* rational form. */
+static Vec2 on_circle(double share) {
+  const double turn = 4.0 * share;
+  const int quarter = turn < 1.0 ? 0 : turn < 2.0 ? 1 : turn < 3.0 ? 2 : 3;
+  const double s = turn - quarter, scale = 1.0 / (1.0 + s * s);
+  const double c = scale * (1.0 - s * s), d = scale * 2.0 * s;
+  switch (quarter) {
+    case 0:
+      return {c, d};
+    case 1:
+      return {-d, c};
+    case 2:
+      return {-c, -d};
+    default:
+      return {d, -c};
+  }
+}
+
+static void place_on_circle(Span<const uint32_t> start, size_t loop, Span<const Vec3> position,
+                            Span<Vec2> flat) {
+  const auto edge = [&](uint32_t v) {
+    return length(position[next_of_loop(start, loop, v)] - position[v]);
+  };
+  double total = 0.0, passed = 0.0;
+  for (uint32_t v = start[loop]; v < start[loop + 1]; ++v) total += edge(v);
+  for (uint32_t v = start[loop]; v < start[loop + 1]; ++v) {
+    flat[v] = on_circle(passed / total);
+    passed += edge(v);
+  }
+}
+
+static Status close_holes(Span<const uint32_t> start, size_t outer, Span<const Vec3> position,
+                          Span<const uint32_t> triangle, ClosedChart* closed) {
+  TRY(closed->triangle.copy(triangle));
+  TRY(triangle_shapes(position, triangle, &closed->shape));
+  for (TriangleShape& shape : closed->shape) {
+    for (double& c : shape.cotangent) {
+      c = smaller(larger(c, k_least_cotangent), k_greatest_cotangent);
+    }
+  }
+  closed->vertices = static_cast<uint32_t>(position.size());
+  TRY(closed->unknown.resize(position.size() + start.size() - 2));
+  for (size_t l = 0; l + 1 < start.size(); ++l) {
+    if (l == outer) continue;
+    for (uint32_t v = start[l]; v < start[l + 1]; ++v) {
+      TRY(closed->triangle.push(next_of_loop(start, l, v)));
+      TRY(closed->triangle.push(v));
+      TRY(closed->triangle.push(closed->vertices));
+      constexpr double c = k_cotangent_of_fan;
+      TRY(closed->shape.push({{c, c, c}, 1.0}));
+    }
+    ++closed->vertices;
+  }
+  for (uint32_t v = 0; v < closed->vertices; ++v) {
+    const bool held = v >= start[outer] && v < start[outer + 1];
+    closed->unknown[v] = held ? k_none : closed->unknowns++;
+  }
+  return {};
+}
+
+/* The lower triangle of the system over the unknowns, and its two right-hand sides. */
+static Status chart_system(const sparse::Csc& laplacian, const ClosedChart& closed,
+                           Span<const Vec2> flat, sparse::Csc* matrix, Array<double>* right) {
+  matrix->rows = matrix->cols = closed.unknowns;
+  TRY(right->assign(2 * size_t{closed.unknowns}, 0.0));
+  TRY(matrix->start.push(0));
+  for (uint32_t j = 0; j < closed.vertices; ++j) {
+    const uint32_t column = closed.unknown[j];
+    if (column == k_none) continue;
+    for (uint32_t p = laplacian.start[j]; p < laplacian.start[j + 1]; ++p) {
+      const uint32_t i = laplacian.row[p], row = closed.unknown[i];
+      if (row == k_none) {
+        (*right)[2 * size_t{column}] += laplacian.value[p] * flat[i].x;
+        (*right)[2 * size_t{column} + 1] += laplacian.value[p] * flat[i].y;
+      } else if (row >= column) {
+        TRY(matrix->row.push(row));
+        TRY(matrix->value.push(-laplacian.value[p]));
+      }
+    }
+    TRY(matrix->start.push(static_cast<uint32_t>(matrix->row.size())));
+  }
+  return {};
+}
+
+static Status solve_chart(const ClosedChart& closed, Span<Vec2> flat) {
+  Context& context = closed.triangle.context();
   sparse::Csc laplacian(context), matrix(context);
   sparse::Cholesky factor(context);
-  Array<double> weight(context), solution(context);
-  Array<Vec3> rest(context), image(context), normal(context);
-  Array<uint32_t> unknown(context), order(context);
-  TRY(triangle_shapes(position, triangle, &shape));
-  TRY(cotangent_laplacian(n, triangle, shape.span(), &laplacian));
-  TRY(weight.resize(n));
-  TRY(unknown.resize(n));
-  TRY(rest.resize(n));
-  TRY(image.assign(n, Vec3{}));
-  TRY(solution.resize(3 * size_t{n - rim}));
-  TRY(normal.resize(n));
-  mixed_voronoi_areas(triangle, shape.span(), weight.span());
-  vertex_normals(position, triangle, normal.span());
-  const double curvature = normal_curvature(loops) * (loops.count() == 1 ? 1.0 : 0.5);
-  for (uint32_t v = 0; v < n; ++v) {
-    normal[v] = -2.0 * curvature * weight[v] * (v < rim ? loops.normal[v] : normal[v]);
-    weight[v] = 1.0 / weight[v];
-    unknown[v] = v < rim ? k_none : v - rim;
-    rest[v] = v < rim ? position[v] : Vec3{};
-  }
-  multiply_points(laplacian, rest.span(), image.span());
-  for (Vec3& p : rest) p = Vec3{};
-  TRY(integrate_conormals(loops, rest.span(), weight.span()));
-  /* The integrated Laplacian of a loop vertex is that of the mesh less the flux through the loop. */
-  for (uint32_t v = 0; v < n; ++v) rest[v] = weight[v] * (rest[v] + normal[v] - image[v]);
-  multiply_points(laplacian, rest.span(), image.span());
-  TRY(sparse::weighted_product(laplacian, weight.span(), laplacian, unknown.span(), n - rim,
-                               sparse::Part::lower, &matrix));
+  Array<uint32_t> order(context);
+  Array<double> right(context);
+  TRY(cotangent_laplacian(closed.vertices, closed.triangle.span(), closed.shape.span(),
+                          &laplacian));
+  TRY(chart_system(laplacian, closed, flat, &matrix, &right));
   TRY(sparse::minimum_degree(matrix, &order));
   TRY(factor.analyse(matrix, order.span()));
-  Status factored = factor.factor(matrix);
-  factored.place = {};
-  TRY(factored);
-  for (uint32_t v = rim; v < n; ++v) {
-    double* row = &solution[3 * size_t{v - rim}];
-    row[0] = image[v].x, row[1] = image[v].y, row[2] = image[v].z;
+  TRY(factor.factor(matrix));
+  TRY(factor.solve(right.span(), 2));
+  for (uint32_t v = 0; v < flat.size(); ++v) {
+    const uint32_t u = closed.unknown[v];
+    if (u != k_none) flat[v] = {right[2 * size_t{u}], right[2 * size_t{u} + 1]};
   }
-  TRY(factor.solve(solution.span(), 3));
-  for (uint32_t v = rim; v < n; ++v) {
-    const double* row = &solution[3 * size_t{v - rim}];
-    position[v] = {row[0], row[1], row[2]};
+  return {};
+}
+
+Status lay_flat(Context& context, Span<const uint32_t> start, Span<const Vec3> position,
+                Span<const uint32_t> triangle, Array<Vec2>* flat) {
+  ClosedChart closed(context);
+  const size_t outer = longest_loop(start, position);
+  TRY(flat->resize(position.size()));
+  place_on_circle(start, outer, position, flat->span());
+  TRY(close_holes(start, outer, position, triangle, &closed));
+  if (closed.unknowns > 0) TRY(solve_chart(closed, flat->span()));
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    if (orient2d((*flat)[triangle[t]], (*flat)[triangle[t + 1]], (*flat)[triangle[t + 2]]) > 0.0)
+      continue;
+    return fail(Code::patch_folded,
+                "no plane shows the patch without folds, and it is too long to be laid flat for "
+                "the curves inside it");
   }
   return {};
 }
 
 }  /* namespace wireskin::mesh */
-/* ======== end src/mesh/dome.cpp ======== */
+/* ======== end src/mesh/chart.cpp ======== */
 
 /* ======== begin src/sparse/ordering.cpp ======== */
 namespace wireskin::sparse {
@@ -18032,6 +21796,329 @@ Status minimum_degree(const Csc& lower, Array<uint32_t>* order) {
 }  /* namespace wireskin::sparse */
 /* ======== end src/sparse/ordering.cpp ======== */
 
+/* ======== begin src/mesh/check.cpp ======== */
+namespace wireskin::mesh {
+
+static Status bad_triangle(const char* sentence, size_t triangle) {
+  Place place;
+  place.triangle = static_cast<uint32_t>(triangle);
+  return fail(Code::bad_mesh, sentence, place);
+}
+
+static Status bad_vertex(Code code, const char* sentence, size_t vertex) {
+  Place place;
+  place.vertex = static_cast<uint32_t>(vertex);
+  return fail(code, sentence, place);
+}
+
+static Status check_sizes(const Expectations& mesh) {
+  const size_t triangles = mesh.triangle.size() / 3;
+  if (mesh.triangle.size() % 3 != 0 || mesh.position.size() >= k_none) {
+    return fail(Code::bad_mesh, "the triangles are not three vertices each");
+  }
+  if (!mesh.patch.empty() && mesh.patch.size() != triangles) {
+    return fail(Code::bad_mesh, "not every triangle has a patch");
+  }
+  for (size_t t = 0; t < triangles && !mesh.patch_normal.empty(); ++t) {
+    const uint32_t patch = mesh.patch.empty() ? 0 : mesh.patch[t];
+    if (patch >= mesh.patch_normal.size()) {
+      return bad_triangle("the triangle is of a patch that does not exist", t);
+    }
+  }
+  return {};
+}
+
+static bool is_finite(const Vec3& p) {
+  return std::fabs(p.x) <= DBL_MAX && std::fabs(p.y) <= DBL_MAX && std::fabs(p.z) <= DBL_MAX;
+}
+
+static Status check_positions(Span<const Vec3> position) {
+  for (size_t v = 0; v < position.size(); ++v) {
+    if (is_finite(position[v])) continue;
+    return bad_vertex(Code::not_a_number, "the vertex has a coordinate that is not finite", v);
+  }
+  return {};
+}
+
+/* Every edge of a curve must be an edge of the mesh. Each vertex's neighbours are marked with its */
+/* own number, once for all edges that it begins. */
+static Status check_edges(Context& context, const Expectations& mesh) {
+  const uint32_t vertices = static_cast<uint32_t>(mesh.position.size());
+  const size_t edges = mesh.edge.size() / 2;
+  Array<uint32_t> start(context), corner(context), first_edge(context), edge(context),
+      mark(context);
+  TRY(find_corners(vertices, mesh.triangle, &start, &corner));
+  TRY(first_edge.assign(size_t{vertices} + 1, 0));
+  TRY(edge.resize(edges));
+  TRY(mark.assign(vertices, k_none));
+  for (size_t e = 0; e < 2 * edges; ++e) {
+    if (mesh.edge[e] >= vertices) {
+      return bad_vertex(Code::index_out_of_range, "an edge names a vertex that does not exist",
+                        mesh.edge[e]);
+    }
+    if (e % 2 == 0) ++first_edge[mesh.edge[e]];
+  }
+  starts_from_counts(first_edge.span());
+  for (uint32_t e = 0; e < edges; ++e) edge[first_edge[mesh.edge[2 * e]]++] = e;
+  for (uint32_t v = 0, e = 0; v < vertices; ++v) {
+    if (e == first_edge[v]) continue;
+    for (uint32_t c = start[v]; c < start[v + 1]; ++c) {
+      mark[mesh.triangle[next_half_edge(corner[c])]] = v;
+      mark[mesh.triangle[previous_half_edge(corner[c])]] = v;
+    }
+    for (; e < first_edge[v]; ++e) {
+      if (mark[mesh.edge[2 * edge[e] + 1]] == v) continue;
+      return bad_vertex(Code::bad_mesh, "an edge of a curve that begins here is not in the mesh",
+                        v);
+    }
+  }
+  return {};
+}
+
+static Vec3 area_vector(const Expectations& mesh, size_t t) {
+  const Vec3& a = mesh.position[mesh.triangle[3 * t]];
+  return cross(mesh.position[mesh.triangle[3 * t + 1]] - a,
+               mesh.position[mesh.triangle[3 * t + 2]] - a);
+}
+
+/* A triangle's height over its longest edge is its doubled area over that edge's length. */
+static Status check_shapes(const Expectations& mesh) {
+  for (size_t t = 0; t < mesh.triangle.size() / 3; ++t) {
+    const Vec3& a = mesh.position[mesh.triangle[3 * t]];
+    const Vec3& b = mesh.position[mesh.triangle[3 * t + 1]];
+    const Vec3& c = mesh.position[mesh.triangle[3 * t + 2]];
+    const double longest2 = larger(dot(b - a, b - a), larger(dot(c - b, c - b), dot(a - c, a - c)));
+    const Vec3 area = area_vector(mesh, t);
+    if (!(length(area) > k_least_height * longest2)) {
+      return bad_triangle("the triangle has no area", t);
+    }
+    if (mesh.patch_normal.empty()) continue;
+    const Vec3& normal = mesh.patch_normal[mesh.patch.empty() ? 0 : mesh.patch[t]];
+    if (dot(area, normal) < 0.0) return bad_triangle("the triangle faces against its patch", t);
+  }
+  return {};
+}
+
+static Status check_folds(const Expectations& mesh, Span<const uint32_t> twins) {
+  for (uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] == k_none || twins[h] < h) continue;
+    const uint32_t t = h / 3, other = twins[h] / 3;
+    if (!mesh.patch.empty() && mesh.patch[t] != mesh.patch[other]) continue;
+    const Vec3 normal = unit(area_vector(mesh, t));
+    if (dot(normal, unit(area_vector(mesh, other))) < k_folded_cosine) {
+      return bad_triangle("the triangle is folded onto its neighbour", t);
+    }
+  }
+  return {};
+}
+
+Status check(Context& context, const Expectations& mesh) {
+  Array<uint32_t> twins(context);
+  Topology topology(context);
+  const uint32_t vertices = static_cast<uint32_t>(mesh.position.size());
+  TRY(check_sizes(mesh));
+  TRY(find_twins(vertices, mesh.triangle, &twins));
+  TRY(find_topology(vertices, mesh.triangle, twins.span(), &topology));
+  TRY(check_edges(context, mesh));
+  if (mesh.euler_characteristic != nullptr &&
+      topology.euler_characteristic != *mesh.euler_characteristic) {
+    return fail(Code::bad_mesh, "the mesh has another Euler characteristic than its network");
+  }
+  TRY(check_positions(mesh.position));
+  TRY(check_shapes(mesh));
+  return mesh.may_fold ? Status{} : check_folds(mesh, twins.span());
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/check.cpp ======== */
+
+/* ======== begin src/mesh/cut.cpp ======== */
+namespace wireskin::mesh {
+
+/* The clockwise-most corner of the sector of corner h, a half-edge that leaves its vertex: cuts and */
+/* borders end the walk, or else it comes back to h. */
+static uint32_t first_of_sector(Span<const uint32_t> twins, Span<const uint8_t> marked,
+                                uint32_t h) {
+  uint32_t g = h;
+  while (!marked[g] && twins[g] != k_none) {
+    g = next_half_edge(twins[g]);
+    if (g == h) break;
+  }
+  return g;
+}
+
+Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint8_t> marked,
+                Cut* cut) {
+  Array<uint32_t> twins(cut->origin.context());
+  Array<uint8_t> taken(cut->origin.context());
+  TRY(find_twins(vertices, triangles, &twins));
+  TRY(taken.assign(vertices, 0));
+  TRY(cut->triangle.assign(triangles.size(), k_none));
+  TRY(cut->origin.resize(vertices));
+  for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
+    if (cut->triangle[h] != k_none) continue;
+    const uint32_t v = triangles[h];
+    uint32_t copy = v;
+    if (taken[v]) {
+      copy = cut->vertices();
+      TRY(cut->origin.push(v));
+    }
+    taken[v] = 1;
+    const uint32_t first = first_of_sector(twins.span(), marked, h);
+    for (uint32_t g = first; g != k_none;) {
+      cut->triangle[g] = copy;
+      const uint32_t across = previous_half_edge(g);
+      g = marked[across] ? k_none : twins[across];
+      if (g == first) break;
+    }
+  }
+  return {};
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/cut.cpp ======== */
+
+/* ======== begin src/mesh/dome.cpp ======== */
+namespace wireskin::mesh {
+
+/* Half the lengths of both rim edges at each loop vertex times the conormal there. */
+static Status integrate_conormals(const Loops& loops, Span<Vec3> flux, Span<double> weight) {
+  for (uint32_t l = 0; l < loops.count(); ++l) {
+    for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
+      const Vec3 along = loops.position[loops.next(l, v)] - loops.position[v];
+      const Vec3 back = loops.position[loops.previous(l, v)] - loops.position[v];
+      const Vec3 conormal = unit(cross(loops.normal[v], unit(along) - unit(back)));
+      flux[v] = 0.5 * (length(along) + length(back)) * conormal;
+      if (loops.normal[v] == Vec3{}) weight[v] = 0.0;
+    }
+  }
+  return {};
+}
+
+/* Of the loops in the mean, positive where they bend away from their normals. */
+static double normal_curvature(const Loops& loops) {
+  double turning = 0.0, total = 0.0;
+  for (uint32_t l = 0; l < loops.count(); ++l) {
+    for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
+      const Vec3 along = loops.position[loops.next(l, v)] - loops.position[v];
+      const Vec3 back = loops.position[loops.previous(l, v)] - loops.position[v];
+      if (loops.normal[v] == Vec3{}) continue;
+      turning -= dot(unit(along) + unit(back), loops.normal[v]);
+      total += 0.5 * (length(along) + length(back));
+    }
+  }
+  return total > 0.0 ? turning / total : 0.0;
+}
+
+/* y = A x for a symmetric matrix with both halves stored: column j is row j. */
+static void multiply_points(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+  for (uint32_t j = 0; j < a.cols; ++j) {
+    Vec3 sum;
+    for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
+    y[j] = sum;
+  }
+}
+
+namespace {
+
+/* A mesh's Laplacian and the systems of least bending made from it. */
+struct Bending {
+  sparse::Csc laplacian;
+  Array<double> weight;     /* of each vertex, the inverse of its area */
+  Array<uint32_t> unknown;  /* of each vertex, k_none where held */
+  Array<Vec3> target;       /* of each vertex: what its integrated Laplacian should be */
+
+  explicit Bending(Context& context)
+      : laplacian(context), weight(context), unknown(context), target(context) {}
+};
+
+}  /* namespace */
+
+static Status take_mesh(Span<const Vec3> position, Span<const uint32_t> triangle, uint32_t held,
+                        Bending* bending) {
+  const uint32_t n = static_cast<uint32_t>(position.size());
+  Array<TriangleShape> shape(bending->weight.context());
+  TRY(triangle_shapes(position, triangle, &shape));
+  TRY(cotangent_laplacian(n, triangle, shape.span(), &bending->laplacian));
+  TRY(bending->weight.resize(n));
+  TRY(bending->unknown.resize(n));
+  TRY(bending->target.assign(n, Vec3{}));
+  mixed_voronoi_areas(triangle, shape.span(), bending->weight.span());
+  for (uint32_t v = 0; v < n; ++v) bending->unknown[v] = v < held ? k_none : v - held;
+  return {};
+}
+
+/* Solves for the field whose Laplacian comes nearest to the target; `field` is given where held. */
+static Status bend_least(const Bending& bending, uint32_t held, Span<Vec3> field) {
+  Context& context = bending.weight.context();
+  const uint32_t n = static_cast<uint32_t>(field.size());
+  sparse::Csc matrix(context);
+  sparse::Cholesky factor(context);
+  Array<double> solution(context);
+  Array<Vec3> rest(context), image(context);
+  Array<uint32_t> order(context);
+  TRY(rest.assign(n, Vec3{}));
+  TRY(image.resize(n));
+  TRY(solution.resize(3 * size_t{n - held}));
+  for (uint32_t v = 0; v < held; ++v) rest[v] = field[v];
+  multiply_points(bending.laplacian, rest.span(), image.span());
+  for (uint32_t v = 0; v < n; ++v) rest[v] = bending.weight[v] * (bending.target[v] - image[v]);
+  multiply_points(bending.laplacian, rest.span(), image.span());
+  TRY(sparse::weighted_product(bending.laplacian, bending.weight.span(), bending.laplacian,
+                               bending.unknown.span(), n - held, sparse::Part::lower, &matrix));
+  TRY(sparse::minimum_degree(matrix, &order));
+  TRY(factor.analyse(matrix, order.span()));
+  Status factored = factor.factor(matrix);
+  factored.place = {};
+  TRY(factored);
+  for (uint32_t v = held; v < n; ++v) {
+    double* row = &solution[3 * size_t{v - held}];
+    row[0] = image[v].x, row[1] = image[v].y, row[2] = image[v].z;
+  }
+  TRY(factor.solve(solution.span(), 3));
+  for (uint32_t v = held; v < n; ++v) {
+    const double* row = &solution[3 * size_t{v - held}];
+    field[v] = {row[0], row[1], row[2]};
+  }
+  return {};
+}
+
+Status raise_dome(Context& context, const Loops& loops, uint32_t held,
+                  Span<const uint32_t> triangle, Span<Vec3> position) {
+  const uint32_t n = static_cast<uint32_t>(position.size());
+  const uint32_t rim = loops.start[loops.count()];
+  if (held == n) return {};
+  Bending bending(context);
+  Array<Vec3> normal(context);
+  TRY(take_mesh(position, triangle, held, &bending));
+  TRY(normal.resize(n));
+  vertex_normals(position, triangle, normal.span());
+  const double curvature = normal_curvature(loops) * (loops.count() == 1 ? 1.0 : 0.5);
+  for (uint32_t v = 0; v < n; ++v) {
+    normal[v] = -2.0 * curvature * bending.weight[v] * (v < rim ? loops.normal[v] : normal[v]);
+    bending.weight[v] = 1.0 / bending.weight[v];
+  }
+  /* The integrated Laplacian of a loop vertex is that of the mesh less the flux through the loop. */
+  TRY(integrate_conormals(loops, bending.target.span(), bending.weight.span()));
+  for (uint32_t v = 0; v < n; ++v) bending.target[v] += normal[v];
+  return bend_least(bending, held, position);
+}
+
+Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
+                    Span<const uint32_t> triangle, Span<Vec3> shift) {
+  if (held == position.size()) return {};
+  Bending bending(context);
+  TRY(take_mesh(position, triangle, held, &bending));
+  for (double& weight : bending.weight) weight = 1.0 / weight;
+  const Status status = bend_least(bending, held, shift);
+  return status.code == Code::not_positive_definite ? Status{} : status;
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/dome.cpp ======== */
+
 /* ======== begin src/sparse/product.cpp ======== */
 namespace wireskin::sparse {
 
@@ -18152,2670 +22239,384 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
 }  /* namespace wireskin::sparse */
 /* ======== end src/sparse/product.cpp ======== */
 
-/* ======== begin src/network/bend.cpp ======== */
-namespace wireskin::network {
+/* ======== begin src/mesh/inlay.cpp ======== */
+namespace wireskin::mesh {
 
-static constexpr double k_support = 16.0;
-
-/* 1 at 0, 0 from 1 on, with vanishing first and second derivatives there. */
-static double fade(double t) {
-  if (!(t < 1.0)) return 0.0;
-  return 1.0 - t * t * t * (10.0 - t * (15.0 - 6.0 * t));
-}
-
-/* Spreads the displacement of pin `i` one way, until the next pin; `step` is 1 or -1. */
-static void spread_pin(const Bend& bend, size_t i, bool forward) {
-  const size_t n = bend.arc.size();
-  const Vec3 shift = bend.displacement[i];
-  const double support = k_support * length(shift);
-  const auto walk = [&](const auto& visit) {
-    double wrapped = 0.0;
-    for (size_t k = i, steps = 0; steps < n; ++steps) {
-      const bool over = forward ? k + 1 == n : k == 0;
-      if (over && !bend.closed) return;
-      if (over) wrapped = bend.length;
-      k = forward ? (over ? 0 : k + 1) : (over ? n - 1 : k - 1);
-      const double away =
-          forward ? bend.arc[k] + wrapped - bend.arc[i] : bend.arc[i] + wrapped - bend.arc[k];
-      if (!visit(k, away)) return;
-    }
-  };
-  double reach = support;
-  walk([&](size_t k, double away) {
-    if (bend.pinned[k] && away < reach) reach = away;
-    return !bend.pinned[k] && away < support;
-  });
-  walk([&](size_t k, double away) {
-    if (bend.pinned[k] || !(away < reach)) return false;
-    bend.displacement[k] += fade(away / reach) * shift;
-    return true;
-  });
-}
-
-void bend_curve(const Bend& bend) {
-  for (size_t i = 0; i < bend.arc.size(); ++i) {
-    if (!bend.pinned[i] || bend.displacement[i] == Vec3{}) continue;
-    spread_pin(bend, i, true);
-    spread_pin(bend, i, false);
-  }
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/bend.cpp ======== */
-
-/* ======== begin src/network/nodes.cpp ======== */
-namespace wireskin::network {
-
-static uint32_t curve_of_sample(const SampleNumbers& samples, uint32_t sample) {
-  uint32_t low = 0, high = static_cast<uint32_t>(samples.start.size()) - 1;
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    (samples.start[middle] <= sample ? low : high) = middle;
-  }
-  return low;
-}
-
-static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,
-                      uint32_t sample) {
-  Place place;
-  place.curve = curve_of_sample(samples, sample);
-  place.sample = sample - samples.start[place.curve];
-  place.node = samples.number[sample];
-  return fail(code, sentence, place);
-}
-
-/* The normal of a node of sharp curves: normals differ across these, so none opposes another here. */
-static void merge_sides(const SampleNumbers& samples, Span<const uint32_t> members, Node* node) {
-  Vec3 sharp, smooth;
-  for (uint32_t sample : members) {
-    if (!samples.sharp[curve_of_sample(samples, sample)]) {
-      smooth += samples.normal[sample];
-      continue;
-    }
-    const Vec3 &left = samples.normal[sample], &right = samples.right[sample];
-    node->crease = true;
-    node->certain = node->certain && dot(left, left) > 0.0 && dot(right, right) > 0.0;
-    sharp += left + right;
-  }
-  if (!node->crease) return;
-  /* Sides that nearly cancel out have no mean that tells anything. */
-  constexpr double k_least_sum = 1e-3;
-  if (!(length(sharp) > k_least_sum)) node->certain = false;
-  node->normal = unit(node->certain ? sharp : sharp + smooth);
-}
-
-/* Makes one node of the samples that carry the same number. */
-static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, double tolerance,
-                    Node* node) {
-  node->number = samples.number[members[0]];
-  node->position = samples.position[members[0]];
-  Vec3 sum;
-  for (uint32_t sample : members) {
-    if (length(samples.position[sample] - node->position) > tolerance) {
-      return fail_at(Code::node_mismatch, "samples of the same node lie at different points",
-                     samples, sample);
-    }
-    sum += samples.normal[sample];
-  }
-  node->normal = unit(sum);
-  if (!samples.sharp.empty()) merge_sides(samples, members, node);
-  if (node->crease) return {};
-  for (uint32_t sample : members) {
-    if (samples.normal[sample] == Vec3{}) continue;  /* a point without one */
-    if (!(dot(samples.normal[sample], node->normal) > 0.0)) {
-      return fail_at(Code::inconsistent_normals,
-                     "the normal opposes those of the other curves at this node", samples, sample);
-    }
-  }
-  return {};
-}
-
-Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
-                  Array<uint32_t>* node_of_sample) {
-  Array<uint32_t> order(nodes->context());
-  TRY(order.reserve(samples.number.size()));
-  TRY(node_of_sample->assign(samples.number.size(), k_none));
-  for (uint32_t i = 0; i < samples.number.size(); ++i) {
-    if (samples.number[i] != k_none) order.push_reserved(i);
-  }
-  const Span<const uint32_t> number = samples.number;
-  sort(order.span(), [number](uint32_t a, uint32_t b) {
-    return number[a] != number[b] ? number[a] < number[b] : a < b;
-  });
-  nodes->clear();
-  for (size_t first = 0, end = 0; first < order.size(); first = end) {
-    while (end < order.size() && number[order[end]] == number[order[first]]) ++end;
-    if (end - first < 2) continue;
-    Node node;
-    TRY(merge(samples, order.span().part(first, end - first), tolerance, &node));
-    for (size_t k = first; k < end; ++k) {
-      (*node_of_sample)[order[k]] = static_cast<uint32_t>(nodes->size());
-    }
-    TRY(nodes->push(node));
-  }
-  return {};
-}
-
-Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
-                      Span<uint32_t> node_of_sample) {
-  for (uint32_t c = 0; c < closed.size(); ++c) {
-    const uint32_t first = samples.start[c], last = samples.start[c + 1] - 1;
-    if (closed[c] && first != last) continue;
-    for (int end = 0; end < (first == last ? 1 : 2); ++end) {
-      const uint32_t sample = end == 0 ? first : last;
-      if (node_of_sample[sample] != k_none) continue;
-      node_of_sample[sample] = static_cast<uint32_t>(nodes->size());
-      Node node = {samples.position[sample], samples.normal[sample], samples.number[sample]};
-      if (!samples.sharp.empty() && samples.sharp[c]) {
-        Array<uint32_t> self(nodes->context());
-        TRY(self.push(sample));
-        merge_sides(samples, self.span(), &node);
-      }
-      TRY(nodes->push(node));
-    }
-  }
-  return {};
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/nodes.cpp ======== */
-
-/* ======== begin src/network/network.cpp ======== */
-namespace wireskin::network {
+/* Vertices of the mesh nearer to an edge of the curves than this part of the spacing make way. */
+static constexpr double k_room = 0.5;
 
 namespace {
 
-/* What the steps below share. Half-segments are numbered as in the header. */
-struct Graph {
-  const curves::Curves& curves;
-  Span<const Node> nodes;
-  Span<const Segment> segments;
-
-  const Segment& segment_of(uint32_t h) const { return segments[h / 2]; }
-  uint32_t from(uint32_t h) const { return h % 2 == 0 ? segment_of(h).from : segment_of(h).to; }
-  curves::Curve curve_of(uint32_t h) const { return curves[segment_of(h).curve]; }
-  /* With the normals on the left of the half-segment. */
-  curves::Curve side_of(uint32_t h) const {
-    return h % 2 == 0 ? curve_of(h) : seen_from_right(curves, segment_of(h).curve);
-  }
-};
-
-struct Leaving {
-  uint32_t half_segment;
-  double angle;
-};
-
-struct Cycles {
-  Array<uint32_t> next;   /* of each half-segment */
-  Array<uint32_t> cycle;  /* of each half-segment */
-  uint32_t count = 0;
-
-  explicit Cycles(Context& context) : next(context), cycle(context) {}
-};
-
-}  /* namespace */
-
-static Status fail_at_node(Code code, const char* sentence, const Graph& graph, uint32_t node,
-                           uint32_t h) {
-  const Segment& segment = graph.segment_of(h);
-  const curves::Curve curve = graph.curve_of(h);
-  Place place;
-  place.node = graph.nodes[node].number;
-  place.curve = segment.curve;
-  place.sample = curve.sample[h % 2 == 0 ? segment.first_knot : segment.last_knot];
-  return fail(code, sentence, place);
-}
-
-/* The stretches between the nodes of one curve. */
-static Status cut_curve(const curves::Curve& curve, uint32_t index, bool boundary,
-                        Array<Segment>* segments) {
-  const uint32_t last = static_cast<uint32_t>(curve.node.size()) - 1;
-  const bool closed = curve.sample[0] == curve.sample[last];
-  if (closed && curve.node[0] == k_none) {
-    return segments->push({index, 0, last, k_none, k_none, boundary});
-  }
-  const uint32_t ends[] = {0, last};
-  for (uint32_t end : ends) {
-    if (curve.node[end] != k_none) continue;
-    return fail_at_sample(Code::open_network, "the curve ends here without meeting another curve",
-                          index, curve.sample[end]);
-  }
-  uint32_t first = 0;
-  for (uint32_t knot = 1; knot <= last; ++knot) {
-    if (curve.node[knot] == k_none) continue;
-    TRY(segments->push({index, first, knot, curve.node[first], curve.node[knot], boundary}));
-    first = knot;
-  }
-  return {};
-}
-
-/* The direction in which half-segment h leaves its node: the tangent, or the secant over a part of */
-/* its length where curves touch and tangents do not tell them apart. */
-static Vec3 direction(const Graph& graph, uint32_t h, double distance) {
-  const Segment& segment = graph.segment_of(h);
-  const curves::Curve curve = graph.curve_of(h);
-  const bool forward = h % 2 == 0;
-  const uint32_t knot = forward ? segment.first_knot : segment.last_knot;
-  if (distance == 0.0) {
-    const Vec3 tangent = tangent_at_knot(curve, knot);
-    return forward ? tangent : -tangent;
-  }
-  const double s = forward ? curve.arc[knot] + distance : curve.arc[knot] - distance;
-  return point_at(curve, segment.first_knot, segment.last_knot, s).position -
-         curve.position.value[knot];
-}
-
-/* Grows with the angle from the x axis, counter-clockwise, from 0 to 4; no trigonometry needed. */
-static double diamond_angle(double x, double y) {
-  const double t = y / (std::fabs(x) + std::fabs(y));
-  if (x < 0.0) return 2.0 - t;
-  return y < 0.0 ? 4.0 + t : t;
-}
-
-static double shortest_length(const Graph& graph, Span<const Leaving> leaving) {
-  double shortest = -1.0;
-  for (const Leaving& l : leaving) {
-    const Segment& segment = graph.segment_of(l.half_segment);
-    const curves::Curve curve = graph.curve_of(l.half_segment);
-    const double length = curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
-    if (shortest < 0.0 || length < shortest) shortest = length;
-  }
-  return shortest;
-}
-
-/* Angles of all half-segments that leave a node, in the plane across its normal. */
-static Status measure_angles(const Graph& graph, uint32_t node, double distance,
-                             Span<Leaving> leaving) {
-  const Vec3& n = graph.nodes[node].normal;
-  const double ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
-  const Vec3 axis = ax <= ay && ax <= az ? Vec3{1, 0, 0} : ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  const Vec3 u = unit(reject(axis, n));
-  const Vec3 v = cross(n, u);
-  for (Leaving& l : leaving) {
-    const Vec3 d = direction(graph, l.half_segment, distance);
-    const double x = dot(d, u), y = dot(d, v);
-    constexpr double k_least_sine = 1e-3;
-    if (!(x * x + y * y > k_least_sine * k_least_sine * dot(d, d))) {
-      return fail_at_node(Code::tangent_normal, "the normal of the node is parallel to the curve",
-                          graph, node, l.half_segment);
-    }
-    l.angle = diamond_angle(x, y);
-  }
-  return {};
-}
-
-static bool all_differ(Span<const Leaving> sorted) {
-  constexpr double k_least_gap = 1e-6;
-  for (size_t i = 0; i < sorted.size(); ++i) {
-    const bool wraps = i + 1 == sorted.size();
-    const double next = wraps ? sorted[0].angle + 4.0 : sorted[i + 1].angle;
-    if (sorted.size() > 1 && next - sorted[i].angle < k_least_gap) return false;
-  }
-  return true;
-}
-
-/* Sorts the half-segments that leave a node counter-clockwise. */
-static Status sort_round_node(const Graph& graph, uint32_t node, Span<Leaving> leaving) {
-  const double shortest = shortest_length(graph, leaving);
-  constexpr double k_parts[] = {0.0, 1.0 / 32.0, 0.25};
-  for (double part : k_parts) {
-    TRY(measure_angles(graph, node, part * shortest, leaving));
-    sort(leaving, [](const Leaving& a, const Leaving& b) {
-      return a.angle != b.angle ? a.angle < b.angle : a.half_segment < b.half_segment;
-    });
-    if (all_differ(leaving)) return {};
-  }
-  return fail_at_node(Code::inconsistent_normals,
-                      "two curves leave the node in the same direction, seen along its normal",
-                      graph, node, leaving[0].half_segment);
-}
-
-/* Coming into a node along h, the way goes on clockwise of where it came from. */
-static Status link_half_segments(const Graph& graph, Span<uint32_t> next) {
-  Context& context = graph.curves.start.context();
-  Array<uint32_t> start(context);
-  Array<Leaving> leaving(context);
-  TRY(start.assign(graph.nodes.size() + 1, 0));
-  TRY(leaving.resize(next.size()));
-  for (uint32_t h = 0; h < next.size(); ++h) {
-    if (graph.from(h) == k_none) {
-      next[h] = h;  /* a closed curve without node is its own cycle */
-    } else {
-      ++start[graph.from(h)];
-    }
-  }
-  starts_from_counts(start.span());
-  Array<uint32_t> fill(context);
-  TRY(fill.copy(start.span()));
-  for (uint32_t h = 0; h < next.size(); ++h) {
-    if (graph.from(h) != k_none) leaving[fill[graph.from(h)]++] = {h, 0.0};
-  }
-  for (uint32_t node = 0; node < graph.nodes.size(); ++node) {
-    const Span<Leaving> round = leaving.span().part(start[node], start[node + 1] - start[node]);
-    if (round.empty()) continue;
-    TRY(sort_round_node(graph, node, round));
-    for (size_t i = 0; i < round.size(); ++i) {
-      const size_t clockwise = i == 0 ? round.size() - 1 : i - 1;
-      next[opposite(round[i].half_segment)] = round[clockwise].half_segment;
-    }
-    if (node % 4096 == 4095) TRY(context.checkpoint());
-  }
-  return {};
-}
-
-static void number_cycles(Cycles* cycles) {
-  for (uint32_t h = 0; h < cycles->next.size(); ++h) {
-    if (cycles->cycle[h] != k_none) continue;
-    for (uint32_t g = h; cycles->cycle[g] == k_none; g = cycles->next[g]) {
-      cycles->cycle[g] = cycles->count;
-    }
-    ++cycles->count;
-  }
-}
-
-/* Twice the area that the cycle through h encloses, seen along the sum of its normals (of its */
-/* nodes' where the curves have none); the sign tells a patch, counter-clockwise, from the outside */
-/* of one. */
-static double signed_area(const Graph& graph, Span<const uint32_t> next, uint32_t h) {
-  const Segment& first = graph.segment_of(h);
-  const Vec3 base = graph.curves[first.curve].position.value[first.first_knot];
-  Vec3 area, normals, nodes;
-  uint32_t g = h;
-  do {
-    const Segment& segment = graph.segment_of(g);
-    const curves::Curve curve = graph.side_of(g);
-    const double sign = g % 2 == 0 ? 1.0 : -1.0;
-    for (uint32_t k = segment.first_knot; k < segment.last_knot; ++k) {
-      const Vec3 a = curve.position.value[k] - base, b = curve.position.value[k + 1] - base;
-      area += sign * cross(a, b);
-      normals += curve.normal.value[k];
-    }
-    if (segment.from != k_none) nodes += graph.nodes[graph.from(g)].normal;
-    g = next[g];
-  } while (g != h);
-  return dot(area, dot(normals, normals) > 0.0 ? normals : nodes);
-}
-
-static bool two_sided(const Cycles& cycles, uint32_t h) {
-  return cycles.cycle[h] == cycles.cycle[opposite(h)];
-}
-
-/* The cycle on the other side of h's cycle all the way round where that is the same one from both */
-/* sides, else k_none. */
-static uint32_t rival_of(const Cycles& cycles, uint32_t h) {
-  const uint32_t c = cycles.cycle[h], rival = cycles.cycle[opposite(h)];
-  if (rival == c) return k_none;
-  uint32_t g = h, count = 0, back = opposite(h);
-  do {
-    if (cycles.cycle[opposite(g)] != rival) return k_none;
-    g = cycles.next[g];
-    ++count;
-  } while (g != h);
-  do {
-    back = cycles.next[back];
-    --count;
-  } while (back != opposite(h) && count != 0);
-  return back == opposite(h) && count == 0 ? rival : k_none;
-}
-
-namespace {
-
-/* What is known of each cycle. */
-struct Judged {
-  Array<uint8_t> outside;  /* no surface there */
-  Array<uint8_t> ring;     /* as in Network */
-
-  explicit Judged(Context& context) : outside(context), ring(context) {}
-};
-
-}  /* namespace */
-
-/* Of a cycle all of whose segments are boundary and none of whose neighbours is a patch for sure: */
-/* counter-clockwise ones have the surface. */
-static void judge_by_area(const Graph& graph, const Cycles& cycles, uint32_t h, Judged* judged) {
-  const uint32_t c = cycles.cycle[h], rival = rival_of(cycles, h);
-  const double area = signed_area(graph, cycles.next.span(), h);
-  if (rival == k_none) {
-    judged->outside[c] = area < 0.0;
-    return;
-  }
-  judged->ring[c] = judged->ring[rival] = 1;
-  judged->outside[area < 0.0 ? c : rival] = 1;
-}
-
-/* Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for */
-/* sure, or else when they run clockwise. */
-static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* judged) {
-  Context& context = judged->outside.context();
-  Array<uint8_t> inner(context);  /* has a segment that is no boundary */
-  TRY(inner.assign(cycles.count, 0));
-  TRY(judged->outside.assign(cycles.count, 0));
-  TRY(judged->ring.assign(cycles.count, 0));
-  const uint32_t halves = static_cast<uint32_t>(cycles.next.size());
-  for (uint32_t h = 0; h < halves; ++h) {
-    if (!graph.segment_of(h).boundary) inner[cycles.cycle[h]] = 1;
-  }
-  for (uint32_t h = 0; h < halves; ++h) {
-    const uint32_t c = cycles.cycle[h];
-    if (!inner[c] && inner[cycles.cycle[opposite(h)]]) judged->outside[c] = 1;
-  }
-  Array<uint8_t> measured(context);
-  TRY(measured.assign(cycles.count, 0));
-  for (uint32_t h = 0; h < halves; ++h) {
-    const uint32_t c = cycles.cycle[h];
-    if (inner[c] || judged->outside[c] || judged->ring[c] || measured[c]) continue;
-    if (two_sided(cycles, h)) continue;
-    measured[c] = 1;
-    judge_by_area(graph, cycles, h, judged);
-  }
-  for (uint32_t h = 0; h < halves; h += 2) {
-    const Segment& segment = graph.segment_of(h);
-    const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
-    const int sides = !judged->outside[a] + !judged->outside[b];
-    const char* sentence = nullptr;
-    if (segment.boundary && sides != 1) {
-      sentence = !inner[a] && !inner[b] && a != b
-                     ? "the normals do not tell on which side of this boundary curve the surface "
-                       "lies"
-                     : "this boundary curve has the surface on both sides: every curve of a border "
-                       "must be tagged as boundary, and no other";
-    }
-    if (sentence == nullptr) continue;
-    return fail_at_sample(Code::open_network, sentence, segment.curve,
-                          graph.curve_of(h).sample[segment.first_knot]);
-  }
-  return {};
-}
-
-/* Lists the loop of a cycle that begins with h, which has another cycle on its other side: where */
-/* the way goes on along a segment inside the patch, the next one clockwise is taken instead. */
-static void list_loop(const Cycles& cycles, uint32_t h, Span<uint8_t> done, Lists* loops) {
-  uint32_t g = h;
-  do {
-    done[g] = 1;
-    loops->item.push_reserved(g);
-    g = cycles.next[g];
-    while (two_sided(cycles, g)) g = cycles.next[opposite(g)];
-  } while (g != h);
-}
-
-static uint32_t root_of_node(Span<uint32_t> parent, uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-/* Loops and the segments between them must form a tree when every loop is shrunk to a point; else */
-/* the patch has a handle. `parent`: of each node, itself on entry and on return. */
-static Status check_handles(const Graph& graph, Span<const uint32_t> loops,
-                            Span<const uint32_t> inner, uint32_t patch, Span<uint32_t> parent) {
-  Status status;
-  for (uint32_t h : loops) {
-    const Segment& s = graph.segment_of(h);
-    if (s.from != k_none) parent[root_of_node(parent, s.from)] = root_of_node(parent, s.to);
-  }
-  for (uint32_t i : inner) {
-    const uint32_t a = root_of_node(parent, graph.segments[i].from);
-    const uint32_t b = root_of_node(parent, graph.segments[i].to);
-    parent[a] = b;
-    if (a != b || !status.ok()) continue;
-    Place place;
-    place.patch = patch;
-    place.curve = graph.segments[i].curve;
-    status = fail(Code::patch_several_loops,
-                  "the border of the patch passes a curve on both sides, round a handle", place);
-  }
-  const auto reset = [&](const Segment& s) {
-    if (s.from == k_none) return;
-    parent[s.from] = s.from;
-    parent[s.to] = s.to;
-  };
-  for (uint32_t h : loops) reset(graph.segment_of(h));
-  for (uint32_t i : inner) reset(graph.segments[i]);
-  return status;
-}
-
-/* The loops and the inner segments of the cycle through h become a patch, or a loose piece where it */
-/* has no loops. */
-static Status collect_patch(const Graph& graph, const Cycles& cycles, uint32_t h, bool ring,
-                            Span<uint8_t> done, Span<uint32_t> parent, Network* network) {
-  const uint32_t first_loop = network->loop.count();
-  Array<uint32_t> inner(network->segment.context());
-  uint32_t g = h;
-  do {
-    if (two_sided(cycles, g)) {
-      if (!done[opposite(g)]) TRY(inner.push(g / 2));
-      done[g] = 1;
-    } else if (!done[g]) {
-      list_loop(cycles, g, done, &network->loop);
-      TRY(network->loop.close());
-    }
-    g = cycles.next[g];
-  } while (g != h);
-  const uint32_t loops = network->loop.count();
-  Lists* list = loops == first_loop ? &network->loose : &network->inner;
-  Span<const uint32_t> halves;
-  if (loops > first_loop) {
-    TRY(network->patch_start.push(loops));
-    TRY(network->ring.push(ring));
-    TRY(network->point.close());
-    halves = network->cycle(network->patches() - 1);
-  }
-  for (uint32_t s : inner) TRY(list->item.push(s));
-  TRY(list->close());
-  if (inner.empty()) return {};
-  return check_handles(graph, halves, inner.span(),
-                       loops > first_loop ? network->patches() - 1 : k_none, parent);
-}
-
-static Status collect_patches(const Graph& graph, const Cycles& cycles, const Judged& judged,
-                              Network* network) {
-  Context& context = network->patch_start.context();
-  Array<uint8_t> done(context);
-  Array<uint32_t> parent(context);
-  TRY(done.assign(cycles.next.size(), 0));
-  TRY(parent.resize(graph.nodes.size()));
-  for (uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  TRY(network->patch_start.push(0));
-  TRY(network->loop.item.reserve(cycles.next.size()));
-  for (uint32_t h = 0; h < cycles.next.size(); ++h) {
-    const uint32_t c = cycles.cycle[h];
-    if (judged.outside[c] || done[h]) continue;
-    TRY(collect_patch(graph, cycles, h, judged.ring[c] != 0, done.span(), parent.span(), network));
-    if (h % 4096 == 4095) TRY(context.checkpoint());
-  }
-  return {};
-}
-
-Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
-                    Span<const Node> nodes, Network* network) {
-  Context& context = network->segment.context();
-  for (uint32_t c = 0; c < curves.size(); ++c) {
-    TRY(cut_curve(curves[c], c, boundary[c] != 0, &network->segment));
-  }
-  const Graph graph = {curves, nodes, network->segment.span()};
-  Cycles cycles(context);
-  Judged judged(context);
-  TRY(cycles.next.resize(2 * network->segment.size()));
-  TRY(cycles.cycle.assign(2 * network->segment.size(), k_none));
-  TRY(link_half_segments(graph, cycles.next.span()));
-  number_cycles(&cycles);
-  TRY(find_outside(graph, cycles, &judged));
-  return collect_patches(graph, cycles, judged, network);
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/network.cpp ======== */
-
-/* ======== begin src/network/resample.cpp ======== */
-namespace wireskin::network {
-
-static double segment_length(const curves::Curves& curves, const Segment& segment) {
-  const curves::Curve curve = curves[segment.curve];
-  return curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
-}
-
-/* Marks with 3 the segments that return to their node, with 2 those that join the same two nodes as */
-/* another one, all others with 1. */
-static Status least_edges(Span<const Segment> segments, Array<uint32_t>* least) {
-  Array<uint32_t> order(least->context());
-  TRY(order.resize(segments.size()));
-  TRY(least->assign(segments.size(), 1));
-  const auto low = [&](uint32_t s) {
-    return segments[s].from < segments[s].to ? segments[s].from : segments[s].to;
-  };
-  const auto high = [&](uint32_t s) {
-    return segments[s].from < segments[s].to ? segments[s].to : segments[s].from;
-  };
-  for (uint32_t s = 0; s < segments.size(); ++s) order[s] = s;
-  sort(order.span(), [&](uint32_t a, uint32_t b) {
-    if (low(a) != low(b)) return low(a) < low(b);
-    return high(a) != high(b) ? high(a) < high(b) : a < b;
-  });
-  for (size_t i = 0; i < order.size(); ++i) {
-    const uint32_t s = order[i];
-    const auto joins_the_same = [&](size_t k) {
-      return low(order[k]) == low(s) && high(order[k]) == high(s);
-    };
-    if (segments[s].from == segments[s].to) {
-      (*least)[s] = 3;
-    } else if ((i > 0 && joins_the_same(i - 1)) ||
-               (i + 1 < order.size() && joins_the_same(i + 1))) {
-      (*least)[s] = 2;
-    }
-  }
-  return {};
-}
-
-/* Chooses the number of edges of each segment and counts the vertices. */
-static Status count_edges(const curves::Curves& curves, const Network& network, size_t nodes,
-                          double spacing, CurveVertices* vertices) {
-  TRY(least_edges(network.segment.span(), &vertices->edges));
-  TRY(vertices->first.resize(network.segment.size()));
-  uint64_t next = nodes;
-  for (size_t s = 0; s < network.segment.size(); ++s) {
-    const double length = segment_length(curves, network.segment[s]);
-    vertices->length += length;
-    const double wished = length / spacing + 0.5;
-    if (!(wished < 1e9)) return fail(Code::too_large, "the spacing is too small for the network");
-    if (wished > vertices->edges[s]) vertices->edges[s] = static_cast<uint32_t>(wished);
-    vertices->first[s] = static_cast<uint32_t>(next);
-    next += vertices->edges[s] - 1 + (network.segment[s].from == k_none);
-    if (next > 0x7fffffff) return fail(Code::too_large, "the spacing is too small for the network");
-  }
-  TRY(vertices->position.resize(static_cast<size_t>(next)));
-  TRY(vertices->normal.resize(static_cast<size_t>(next)));
-  return vertices->curve.assign(static_cast<size_t>(next), k_none);
-}
-
-uint32_t segment_vertex(const Network& network, const CurveVertices& vertices, uint32_t s,
-                        uint32_t k) {
-  const Segment& segment = network.segment[s];
-  if (segment.from == k_none) return vertices.first[s] + k % vertices.edges[s];
-  if (k == 0) return segment.from;
-  return k == vertices.edges[s] ? segment.to : vertices.first[s] + k - 1;
-}
-
-static Status place_vertices(const curves::Curves& curves, const Network& network, uint32_t s,
-                             CurveVertices* vertices) {
-  const Segment& segment = network.segment[s];
-  const curves::Curve curve = curves[segment.curve];
-  const double from = curve.arc[segment.first_knot];
-  const double length = curve.arc[segment.last_knot] - from;
-  const uint32_t edges = vertices->edges[s];
-  for (uint32_t k = 0; k <= edges; ++k) {
-    if (k % 4096 == 4095) TRY(vertices->position.context().checkpoint());
-    const uint32_t v = segment_vertex(network, *vertices, s, k);
-    if (vertices->curve[v] > segment.curve) vertices->curve[v] = segment.curve;
-    if (segment.from != k_none && (k == 0 || k == edges)) continue;  /* nodes are there already */
-    const double part = static_cast<double>(k) / static_cast<double>(edges);
-    const curves::CurvePoint point =
-        point_at(curve, segment.first_knot, segment.last_knot, from + part * length);
-    if (has_normals(curve) && !(dot(point.normal, point.normal) > 0.5)) {
-      return fail_at_sample(Code::inconsistent_normals,
-                            "the normals of neighbouring samples cancel out", segment.curve,
-                            curve.sample[segment.first_knot]);
-    }
-    if (k == edges) break;  /* the closed curve's first vertex again */
-    vertices->position[v] = point.position;
-    vertices->normal[v] = point.normal;
-  }
-  return {};
-}
-
-Status resample(const curves::Curves& curves, Span<const Node> nodes, const Network& network,
-                double spacing, CurveVertices* vertices) {
-  vertices->nodes = static_cast<uint32_t>(nodes.size());
-  TRY(count_edges(curves, network, nodes.size(), spacing, vertices));
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    vertices->position[i] = nodes[i].position;
-    vertices->normal[i] = nodes[i].normal;
-  }
-  for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    TRY(place_vertices(curves, network, s, vertices));
-    if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
-  }
-  for (uint32_t c = 0; c < curves.size(); ++c) {  /* points */
-    const curves::Curve curve = curves[c];
-    if (curve.node.size() != 1 || curve.node[0] >= nodes.size()) continue;
-    uint32_t& of = vertices->curve[curve.node[0]];
-    if (of > c) of = c;
-  }
-  return curves.right.empty() ? Status{} : resample_sides(curves, network, vertices);
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/resample.cpp ======== */
-
-/* ======== begin src/network/border.cpp ======== */
-namespace wireskin::network {
-
-/* Where a border begins must not depend on the order or the direction of the curves, or these would */
-/* change the triangulation: at its least point, nodes (whose bits are the caller's) before others. */
-static bool begins_before(const CurveVertices& vertices, uint32_t a, uint32_t b) {
-  if ((a < vertices.nodes) != (b < vertices.nodes)) return a < vertices.nodes;
-  const Vec3 &p = vertices.position[a], &q = vertices.position[b];
-  if (p.x != q.x) return p.x < q.x;
-  return p.y != q.y ? p.y < q.y : p.z < q.z;
-}
-
-static Status append_loop(const Network& network, const CurveVertices& vertices, uint32_t loop,
-                          Border* border) {
-  const Span<const uint32_t> half = network.loop[loop];
-  Array<uint32_t> vertex(border->vertex.context());
-  Array<Vec3> normal(border->vertex.context());
-  for (size_t i = 0; i < half.size(); ++i) {
-    const uint32_t h = half[i], before = half[i == 0 ? half.size() - 1 : i - 1];
-    const uint32_t s = h / 2, edges = vertices.edges[s];
-    for (uint32_t k = 0; k < edges; ++k) {
-      TRY(vertex.push(segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)));
-      const Vec3 own = left_normal(network, vertices, h, k);
-      if (k > 0 || vertices.side_start.empty()) {
-        TRY(normal.push(own));
-      } else {
-        const Vec3 last = left_normal(network, vertices, before, vertices.edges[before / 2]);
-        TRY(normal.push(unit(last + own)));
-      }
-    }
-  }
-  const size_t n = vertex.size();
-  size_t first = 0;
-  for (size_t i = 1; i < n; ++i) {
-    if (begins_before(vertices, vertex[i], vertex[first])) first = i;
-  }
-  for (size_t i = 0; i < n; ++i) {
-    const size_t k = (first + i) % n;
-    TRY(border->vertex.push(vertex[k]));
-    TRY(border->position.push(vertices.position[vertex[k]]));
-    TRY(border->normal.push(normal[k]));
-  }
-  return border->start.push(static_cast<uint32_t>(border->vertex.size()));
-}
-
-Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t patch,
-                       Border* border) {
-  border->start.clear();
-  border->vertex.clear();
-  border->position.clear();
-  border->normal.clear();
-  TRY(border->start.push(0));
-  for (uint32_t l = network.patch_start[patch]; l < network.patch_start[patch + 1]; ++l) {
-    TRY(append_loop(network, vertices, l, border));
-  }
-  return {};
-}
-
-uint32_t next_on_border(const Border& border, uint32_t loop, uint32_t i) {
-  return i + 1 == border.start[loop + 1] ? border.start[loop] : i + 1;
-}
-
-Vec3 vector_area(const Border& border) {
-  Vec3 area;
-  const Vec3 base = border.position[0];
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      const Vec3& next = border.position[next_on_border(border, l, i)];
-      area += cross(border.position[i] - base, next - base);
-    }
-  }
-  return area;
-}
-
-Vec3 mean_normal(const Border& border) {
-  Vec3 sum;
-  double known = 0.0;
-  for (const Vec3& n : border.normal) {
-    sum += n;
-    known += n != Vec3{} ? 1.0 : 0.0;
-  }
-  return known > 0.0 ? (1.0 / known) * sum : Vec3{};
-}
-
-double border_length(const Border& border) {
-  double sum = 0.0;
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      sum += length(border.position[next_on_border(border, l, i)] - border.position[i]);
-    }
-  }
-  return sum;
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/border.cpp ======== */
-
-/* ======== begin src/network/side_normals.cpp ======== */
-namespace wireskin::network {
-
-/* The normals of one side of segment s, `curve` being its curve as seen from there. */
-static Status fill_side(const curves::Curve& curve, const Segment& segment, Span<Vec3> side) {
-  const size_t edges = side.size() - 1;
-  const double from = curve.arc[segment.first_knot];
-  const double length = curve.arc[segment.last_knot] - from;
-  side[0] = curve.normal.value[segment.first_knot];
-  side[edges] = curve.normal.value[segment.last_knot];
-  if (!has_normals(curve)) {
-    for (Vec3& n : side) n = Vec3{};
-    return {};
-  }
-  for (size_t k = 1; k < edges; ++k) {
-    const double part = static_cast<double>(k) / static_cast<double>(edges);
-    side[k] = point_at(curve, segment.first_knot, segment.last_knot, from + part * length).normal;
-    if (dot(side[k], side[k]) > 0.5) continue;
-    return fail_at_sample(Code::inconsistent_normals,
-                          "the normals of neighbouring samples cancel out", segment.curve,
-                          curve.sample[segment.first_knot]);
-  }
-  return {};
-}
-
-Status resample_sides(const curves::Curves& curves, const Network& network,
-                      CurveVertices* vertices) {
-  const size_t segments = network.segment.size();
-  TRY(vertices->side_start.resize(segments + 1));
-  uint32_t total = 0;
-  for (size_t s = 0; s < segments; ++s) {
-    vertices->side_start[s] = total;
-    total += vertices->edges[s] + 1;
-  }
-  vertices->side_start[segments] = total;
-  TRY(vertices->left.resize(total));
-  TRY(vertices->right.resize(total));
-  for (uint32_t s = 0; s < segments; ++s) {
-    const Segment& segment = network.segment[s];
-    const size_t first = vertices->side_start[s], count = size_t{vertices->edges[s]} + 1;
-    const Span<Vec3> left = vertices->left.span().part(first, count);
-    const Span<Vec3> right = vertices->right.span().part(first, count);
-    TRY(fill_side(curves[segment.curve], segment, left));
-    TRY(fill_side(seen_from_right(curves, segment.curve), segment, right));
-    for (uint32_t k = 0; k < count; ++k) {
-      const uint32_t v = segment_vertex(network, *vertices, s, k);
-      const bool inside = segment.from == k_none || (k > 0 && k + 1 < count);
-      if (inside && left[k] != right[k]) vertices->normal[v] = unit(left[k] + right[k]);
-    }
-    TRY(vertices->left.context().checkpoint());
-  }
-  return {};
-}
-
-Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t h, uint32_t k) {
-  const uint32_t s = h / 2, edges = vertices.edges[s];
-  if (vertices.side_start.empty()) {
-    return vertices.normal[segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)];
-  }
-  const uint32_t first = vertices.side_start[s];
-  return h % 2 == 0 ? vertices.left[first + k] : vertices.right[first + edges - k];
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/side_normals.cpp ======== */
-
-/* ======== begin src/network/border_check.cpp ======== */
-namespace wireskin::network {
-
-static double clamp_to_unit(double t) {
-  return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
-}
-
-/* The square of the distance between the segments a b and c d. */
-static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 u = b - a, v = d - c, w = a - c;
-  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
-  const double determinant = uu * vv - uv * uv;
-  const double s = determinant > 0.0 ? clamp_to_unit((uv * vw - vv * uw) / determinant) : 0.0;
-  const double t = clamp_to_unit((uv * s + vw) / vv);  /* nearest on c d to that point of a b */
-  const double again = clamp_to_unit((uv * t - uw) / uu);
-  const Vec3 gap = (a + again * u) - (c + t * v);
-  return dot(gap, gap);
-}
-
-/* Fails where two edges without a common end touch, to within a millionth of the border's length. */
-static Status find_crossing(const Border& border, double perimeter) {
-  constexpr double k_touch = 1e-6;
-  const Span<const Vec3> position = border.position.span();
-  Array<uint32_t> next(border.vertex.context());
-  TRY(next.resize(border.size()));
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      next[i] = next_on_border(border, l, i);
-    }
-  }
-  for (uint32_t i = 0; i < border.size(); ++i) {
-    const Vec3 &a = position[i], &b = position[next[i]];
-    const double own = length(b - a);
-    for (uint32_t j = i + 1; j < border.size(); ++j) {
-      if (j == next[i] || next[j] == i) continue;
-      const Vec3 &c = position[j], &d = position[next[j]];
-      if (length(c - a) > own + length(d - c) + k_touch * perimeter) continue;
-      if (segment_distance2(a, b, c, d) <= k_touch * perimeter * (k_touch * perimeter)) {
-        return fail(Code::patch_folded, "the border of the patch crosses itself");
-      }
-    }
-    if (i % 64 == 63) TRY(next.context().checkpoint());
-  }
-  return {};
-}
-
-Status check_border(const Border& border) {
-  const Vec3 area = 0.5 * vector_area(border);
-  const Vec3 normal = mean_normal(border);
-  const double perimeter = border_length(border);
-  /* A disc of this perimeter has the area perimeter^2 / (4 pi); a fifth of that is no accident. The */
-  /* larger part of a sphere runs clockwise, too, but its normals lean outwards. */
-  constexpr double k_least_cosine = -0.55;
-  const double clear_area = perimeter * perimeter / 60.0;
-  if (length(area) > clear_area && dot(unit(area), normal) < k_least_cosine) {
-    return fail(
-        Code::patch_without_plane,
-        "the border runs clockwise round its normals: where a surface ends, its curves must be "
-        "tagged as boundary");
-  }
-  return find_crossing(border, perimeter);
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/border_check.cpp ======== */
-
-/* ======== begin src/network/patch_mesh.cpp ======== */
-namespace wireskin::network {
-
-/* Where the normals agree less with the axis of the border, what spreads linearly from it is flat: */
-/* the patch starts raised along them. */
-static constexpr double k_least_closing = 0.3;
-
-namespace {
-
-/* An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a */
-/* curve. */
-struct Chord {
-  uint32_t a, b;
-  uint32_t patch;
-};
-
-/* What is gathered over all patches: corner[3 t + k] is corner k of triangle t, in space or in its */
-/* patch's plane (z = 0; the same vertex then has another place in each patch). */
-struct Builder {
-  PatchMesh* mesh;
-  Array<Vec3> corner;
-  Array<Chord> chord;
-  Array<uint32_t> patch_start;  /* first triangle of each patch, before chords are split */
-  Array<uint8_t> raised;        /* of each patch */
-
-  explicit Builder(Context& context, PatchMesh* result)
-      : mesh(result), corner(context), chord(context), patch_start(context), raised(context) {}
-};
-
-/* Memory for one patch, reused: the border, the vertices of the patch that are on curves (those of */
-/* the loops, then inner ones), the mesh either way, and what both come to: triangles over these */
-/* vertices and free ones behind them, the corners' places for the metric, and where the free */
-/* vertices may start in space. */
-struct PatchScratch {
-  Border border;
-  Array<uint32_t> local;         /* of each curve vertex, k_none between patches */
-  Array<uint32_t> vertex;        /* of each local one the curve vertex */
-  Array<uint32_t> loop;          /* local, in the order of the border */
-  Array<uint32_t> inner_edge;    /* two local ones each, the lesser first */
-  Array<Chord> curve_edge;       /* local, a < b, sorted: loops' and inner edges */
-  uint32_t isolated = 0;         /* so many of the last local vertices are points */
-  Array<Vec3> position, normal;  /* of the local vertices */
-  Array<Vec2> flat;
-  planar::PolygonMesh planar;
-  mesh::LoopMesh spatial;
-  Array<Vec3> place;
-  Array<Vec3> inner;
-  bool raised = false;
-
-  explicit PatchScratch(Context& context)
-      : border(context),
-        local(context),
-        vertex(context),
-        loop(context),
-        inner_edge(context),
-        curve_edge(context),
-        position(context),
-        normal(context),
+struct InlayWork {
+  Span<const uint32_t> start;
+  const Inlay& inlay;
+  double spacing;
+  uint32_t rim;                     /* loop vertices */
+  Array<Vec2> flat;                 /* of the mesh */
+  Array<Vec3> foot;                 /* of each point, on the mesh */
+  Array<Vec2> drawn;                /* loop vertices and feet in the chart */
+  Array<uint32_t> border;           /* the loops' edges */
+  Array<uint32_t> vertex_of_point;  /* of each triangulated point behind those drawn, the vertex */
+
+  InlayWork(Context& context, Span<const uint32_t> loops, const Inlay& of, double wished)
+      : start(loops),
+        inlay(of),
+        spacing(wished),
+        rim(loops[loops.size() - 1]),
         flat(context),
-        planar(context),
-        spatial(context),
-        place(context),
-        inner(context) {}
+        foot(context),
+        drawn(context),
+        border(context),
+        vertex_of_point(context) {}
+  uint32_t held() const { return rim + static_cast<uint32_t>(inlay.point.size()); }
 };
 
 }  /* namespace */
 
-static bool may_be_left_out(const Status& status) {
-  return status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
-         status.code == Code::patch_several_loops;
+/* Of the segment a b, as the weights of its ends. */
+static void nearest_on_side(const Vec3& p, const Vec3& a, const Vec3& b, double* at_a,
+                            double* at_b) {
+  const Vec3 way = b - a;
+  const double square = dot(way, way), t = square > 0.0 ? dot(p - a, way) / square : 0.0;
+  *at_b = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+  *at_a = 1.0 - *at_b;
 }
 
-/* Adds the place to what went wrong with a patch: its number and a curve of its border. */
-static Status at_patch(Status status, const Network& network, uint32_t patch) {
-  if (!may_be_left_out(status)) return status;
-  status.place.patch = patch;
-  if (status.place.curve == k_none) {
-    status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
+Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 across = cross(b - a, c - a);
+  const double square = dot(across, across);
+  const Vec3 inside = {dot(cross(b - p, c - p), across), dot(cross(c - p, a - p), across),
+                       dot(cross(a - p, b - p), across)};
+  if (square > 0.0 && inside.x >= 0.0 && inside.y >= 0.0 && inside.z >= 0.0) {
+    return (1.0 / square) * inside;
   }
-  return status;
+  Vec3 best[3];
+  nearest_on_side(p, a, b, &best[0].x, &best[0].y);
+  nearest_on_side(p, b, c, &best[1].y, &best[1].z);
+  nearest_on_side(p, c, a, &best[2].z, &best[2].x);
+  Vec3 nearest;
+  double least = DBL_MAX;
+  for (const Vec3& w : best) {
+    const Vec3 gap = w.x * a + w.y * b + w.z * c - p;
+    if (!(dot(gap, gap) < least)) continue;
+    least = dot(gap, gap);
+    nearest = w;
+  }
+  return nearest;
 }
 
-static bool before(const Chord& x, const Chord& y) {
-  if (x.a != y.a) return x.a < y.a;
-  return x.b != y.b ? x.b < y.b : x.patch < y.patch;
-}
-
-static Status add_vertex(uint32_t v, const CurveVertices& vertices, const Vec3& normal,
-                         PatchScratch* scratch, uint32_t* local) {
-  if (scratch->local[v] == k_none) {
-    scratch->local[v] = static_cast<uint32_t>(scratch->vertex.size());
-    TRY(scratch->vertex.push(v));
-    TRY(scratch->position.push(vertices.position[v]));
-    TRY(scratch->normal.push(normal));
-  }
-  *local = scratch->local[v];
-  return {};
-}
-
-static Status add_edge(uint32_t a, uint32_t b, PatchScratch* scratch) {
-  return scratch->curve_edge.push(a < b ? Chord{a, b, k_none} : Chord{b, a, k_none});
-}
-
-/* Numbers the curve vertices of a patch and lists its edges. */
-static Status take_domain(const Network& network, const CurveVertices& vertices, uint32_t patch,
-                          PatchScratch* scratch) {
-  TRY(border_of_patch(network, vertices, patch, &scratch->border));
-  const Border& border = scratch->border;
-  for (uint32_t v : scratch->vertex) scratch->local[v] = k_none;
-  scratch->vertex.clear();
-  scratch->position.clear();
-  scratch->normal.clear();
-  scratch->inner_edge.clear();
-  scratch->curve_edge.clear();
-  TRY(scratch->loop.resize(border.size()));
-  for (uint32_t i = 0; i < border.size(); ++i) {
-    TRY(add_vertex(border.vertex[i], vertices, border.normal[i], scratch, &scratch->loop[i]));
-  }
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      TRY(add_edge(scratch->loop[i], scratch->loop[next_on_border(border, l, i)], scratch));
-    }
-  }
-  for (uint32_t s : network.inner[patch]) {
-    uint32_t last = k_none, local = k_none;
-    for (uint32_t k = 0; k <= vertices.edges[s]; ++k, last = local) {
-      const uint32_t v = segment_vertex(network, vertices, s, k);
-      TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
-      if (k == 0) continue;
-      TRY(scratch->inner_edge.push(last));
-      TRY(scratch->inner_edge.push(local));
-      TRY(add_edge(last, local, scratch));
-    }
-  }
-  scratch->isolated = static_cast<uint32_t>(network.point[patch].size());
-  for (uint32_t v : network.point[patch]) {
-    uint32_t local = k_none;
-    TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
-  }
-  sort(scratch->curve_edge.span(), before);
-  return {};
-}
-
-static bool find_edge(Span<const Chord> sorted, uint32_t a, uint32_t b) {
-  const Chord edge = {a, b, k_none};
-  size_t low = 0, high = sorted.size();
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    if (before(sorted[middle], edge)) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < sorted.size() && sorted[low].a == a && sorted[low].b == b;
-}
-
-static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
-  return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
-}
-
-static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
-                           uint32_t patch, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
-  const auto global = [&](uint32_t v) {
-    return v < n ? scratch.vertex[v] : mesh->vertices + (v - n);
-  };
-  for (size_t h = 0; h < triangle.size(); ++h) {
-    const uint32_t a = triangle[h], b = triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
-    TRY(mesh->triangle.push(global(a)));
-    TRY(builder->corner.push(scratch.place[a]));
-    if (h % 3 == 0) TRY(mesh->patch.push(patch));
-    /* Each edge inside is met once in each direction; the ascending one is noted. */
-    if (a < n && b < n && global(a) < global(b) && !is_curve_edge(scratch, a, b)) {
-      TRY(builder->chord.push({global(a), global(b), patch}));
-    }
-  }
-  for (const Vec3& p : scratch.inner) {
-    TRY(mesh->start.push(p));
-    TRY(mesh->placed.push(scratch.raised));
-  }
-  const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
-  if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
-    return fail(Code::too_large, "the spacing is too small for the network");
-  }
-  mesh->vertices = static_cast<uint32_t>(vertices);
-  return {};
-}
-
-/* Whether the triangles lie on the left of every edge of the loops: holes run clockwise, the outer */
-/* loop does not. */
-static bool on_the_left(const PatchScratch& scratch, Array<Chord>* directed) {
-  sort(directed->span(), before);
-  for (size_t h = 0; h < scratch.planar.triangles.size(); ++h) {
-    const uint32_t a = scratch.planar.triangles[h];
-    const uint32_t b = scratch.planar.triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
-    if (find_edge(directed->span(), b, a)) return false;
-  }
-  return true;
-}
-
-static Status mesh_flat(double spacing, PatchScratch* scratch) {
-  Context& context = scratch->vertex.context();
-  const Border& border = scratch->border;
-  round_to_grid(scratch->flat.span(), &spacing);
-  if (border.loops() == 1 && border.size() == scratch->vertex.size()) {
-    return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
-  }
-  Array<uint32_t> edges(context);
-  Array<Chord> directed(context);
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      const uint32_t a = scratch->loop[i], b = scratch->loop[next_on_border(border, l, i)];
-      TRY(edges.push(a));
-      TRY(edges.push(b));
-      TRY(directed.push({a, b, k_none}));
-    }
-  }
-  const planar::Region region = {scratch->flat.span(), edges.span(), scratch->inner_edge.span(),
-                                 false};
-  Status status = planar::mesh_region(context, region, spacing, &scratch->planar);
-  const bool outside = status.code == Code::bad_argument || status.code == Code::open_network;
-  if (outside) status = fail(Code::patch_folded, "a curve inside the patch leaves it");
-  status.place = {};  /* its vertices are ours */
-  TRY(status);
-  if (!on_the_left(*scratch, &directed)) {
-    return fail(Code::patch_without_plane, "a loop of the patch runs the wrong way round");
-  }
-  return {};
-}
-
-/* `least_facing` as in mesh_patches. */
-static Status mesh_in_plane(const Plane& plane, double spacing, double least_facing,
-                            PatchScratch* scratch) {
-  const size_t n = scratch->vertex.size();
-  TRY(scratch->flat.resize(n));
-  double facing = 0.0;
-  size_t known = 0;
-  for (size_t i = 0; i < n; ++i) scratch->flat[i] = plane.project(scratch->position[i]);
-  for (const Vec3& normal : scratch->border.normal) {
-    facing += dot(normal, plane.normal);
-    known += normal != Vec3{};
-  }
-  if (known > 0 && facing < least_facing * static_cast<double>(known)) {
-    return fail(Code::patch_without_plane, "the plane of the patch sees too much of it edge-on");
-  }
-  TRY(mesh_flat(spacing, scratch));
-  const Array<Vec2>& points = scratch->planar.points;
-  TRY(scratch->place.resize(points.size()));
-  TRY(scratch->inner.resize(points.size() - n));
-  for (size_t i = 0; i < points.size(); ++i) {
-    scratch->place[i] = {points[i].x, points[i].y, 0.0};
-    if (i >= n) scratch->inner[i - n] = plane.lift(points[i]);
-  }
-  return {};
-}
-
-/* Whether some triangle is so thin that the systems to come would be singular. */
-static bool has_needles(Span<const Vec3> position, Span<const uint32_t> triangle) {
-  constexpr double k_needle = 1e-5;
-  for (size_t t = 0; t < triangle.size(); t += 3) {
-    const Vec3 a = position[triangle[t + 1]] - position[triangle[t]];
-    const Vec3 b = position[triangle[t + 2]] - position[triangle[t]], c = b - a;
-    if (!(length(cross(a, b)) > k_needle * (dot(a, a) + dot(b, b) + dot(c, c)))) return true;
-  }
-  return false;
-}
-
-/* Raises the mesh of scratch->spatial from its border along the normals, refines it where that */
-/* stretched it, and raises it again. It stays as it was where this makes needles of triangles. */
-static Status raise_patch(const mesh::Loops& loops, double spacing, PatchScratch* scratch) {
-  constexpr int k_rounds = 4;
-  Context& context = scratch->vertex.context();
-  Array<Vec3> place(context);
-  Array<uint32_t> triangle(context);
-  TRY(place.copy(scratch->place.span()));
-  TRY(triangle.copy(scratch->spatial.triangle.span()));
-  for (int round = 0; round < k_rounds; ++round) {
-    if (round > 0) TRY(mesh::refine_loops(context, spacing, loops.start, &place, &triangle));
-    if (has_needles(place.span(), triangle.span())) return {};
-    const Status raised = mesh::raise_dome(context, loops, triangle.span(), place.span());
-    if (raised.code == Code::not_positive_definite) return {};
-    TRY(raised);
-  }
-  if (has_needles(place.span(), triangle.span())) return {};
-  scratch->place = static_cast<Array<Vec3>&&>(place);
-  scratch->spatial.triangle = static_cast<Array<uint32_t>&&>(triangle);
-  return {};
-}
-
-static Status mesh_in_space(double spacing, PatchScratch* scratch) {
-  Context& context = scratch->vertex.context();
-  const size_t n = scratch->vertex.size();
-  if (n != scratch->border.size()) {
-    return fail(Code::patch_folded,
-                "no plane shows the patch without folds, and curves lie inside it");
-  }
-  const mesh::Loops loops = {scratch->border.start.span(), scratch->position.span(),
-                             scratch->normal.span()};
-  TRY(mesh::mesh_loops(context, loops, spacing, &scratch->spatial));
-  TRY(scratch->place.copy(scratch->position.span()));
-  for (const Vec3& p : scratch->spatial.inner) TRY(scratch->place.push(p));
-  const Border& border = scratch->border;
-  scratch->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
-  if (scratch->raised) TRY(raise_patch(loops, spacing, scratch));
-  return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
-}
-
-static bool may_be_meshed_otherwise(const Status& status) {
-  return status.code == Code::patch_without_plane || status.code == Code::patch_folded;
-}
-
-static Status mesh_patch(const Network& network, const CurveVertices& vertices, double least_facing,
-                         uint32_t patch, PatchScratch* scratch, Builder* builder) {
-  TRY(take_domain(network, vertices, patch, scratch));
-  const Border& border = scratch->border;
-  const double spacing = border_length(border) / static_cast<double>(border.size());
-  Plane plane;
-  scratch->raised = false;
-  Status status = fit_plane(border, &plane);
-  if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
-  if (status.ok()) {
-    TRY(builder->mesh->way.push(PatchWay::plane));
-    return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
-  }
-  if (!may_be_meshed_otherwise(status)) return status;
-  TRY(check_border(border));
-  TRY(mesh_in_space(spacing, scratch));
-  TRY(builder->mesh->way.push(PatchWay::minimal_area));
-  return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
-}
-
-/* Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the */
-/* triangle keeps one half, a new triangle takes the other. */
-static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
-  const Vec3 middle = 0.5 * (builder->corner[h] + builder->corner[next]);
-  const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
-  const Vec3 corner[3] = {middle, builder->corner[next], builder->corner[previous]};
+/* Whether a place of a triangle lies on the border of the mesh, to which what is beside it */
+/* projects. */
+static bool is_beside(const uint32_t* triangle, const Vec3& w, uint32_t rim) {
+  const double weight[3] = {w.x, w.y, w.z};
+  int held = 0, all = 0;
   for (int k = 0; k < 3; ++k) {
-    TRY(mesh->triangle.push(vertex[k]));
-    TRY(builder->corner.push(corner[k]));
+    if (weight[k] == 0.0) continue;
+    ++all;
+    held += triangle[k] < rim;
   }
-  mesh->triangle[next] = m;
-  builder->corner[next] = middle;
-  return mesh->patch.push(mesh->patch[h / 3]);
+  return held == all && all < 3;
 }
 
-/* Splits the triangles [first, end) of the chord's patch that have the chord. */
-static Status split_triangles(const Chord& chord, uint32_t first, uint32_t end, uint32_t middle,
-                              Builder* builder) {
-  const PatchMesh& mesh = *builder->mesh;
-  for (uint32_t h = 3 * first; h < 3 * end; ++h) {
-    const uint32_t a = mesh.triangle[h], b = mesh.triangle[mesh::next_half_edge(h)];
-    const bool here = (a == chord.a && b == chord.b) || (a == chord.b && b == chord.a);
-    if (here && mesh.patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, builder));
+/* The nearest place in the triangles round the nearest vertex. */
+static Status find_feet(Span<const Vec3> position, Span<const uint32_t> triangle, InlayWork* work) {
+  Context& context = work->flat.context();
+  Array<uint32_t> start(context), corner(context);
+  TRY(find_corners(static_cast<uint32_t>(position.size()), triangle, &start, &corner));
+  TRY(work->foot.resize(work->inlay.point.size()));
+  TRY(work->drawn.copy(work->flat.span().part(0, work->rim)));
+  for (size_t i = 0; i < work->foot.size(); ++i) {
+    const Vec3& p = work->inlay.point[i];
+    uint32_t nearest = 0;
+    double least = DBL_MAX;
+    for (uint32_t v = 0; v < position.size(); ++v) {
+      const Vec3 gap = position[v] - p;
+      if (dot(gap, gap) < least) least = dot(gap, gap), nearest = v;
+    }
+    Vec2 flat;
+    bool beside = false;
+    least = DBL_MAX;
+    for (uint32_t k = start[nearest]; k < start[nearest + 1]; ++k) {
+      const uint32_t* t = &triangle[corner[k] / 3 * 3];
+      const Vec3 w = nearest_weights(p, position[t[0]], position[t[1]], position[t[2]]);
+      const Vec3 q = w.x * position[t[0]] + w.y * position[t[1]] + w.z * position[t[2]];
+      const Vec3 gap = q - p;
+      if (!(dot(gap, gap) < least)) continue;
+      least = dot(gap, gap);
+      work->foot[i] = q;
+      beside = is_beside(t, w, work->rim);
+      flat = w.x * work->flat[t[0]] + w.y * work->flat[t[1]] + w.z * work->flat[t[2]];
+    }
+    if (beside) {
+      Place place;
+      place.vertex = work->rim + static_cast<uint32_t>(i);
+      return fail(Code::patch_folded, "the curve leaves the patch that it lies in", place);
+    }
+    TRY(work->drawn.push(flat));
+    TRY(context.checkpoint());
   }
   return {};
 }
 
-/* A patch's triangles are those it began with and some of those that came from earlier splits. */
-static Status split_chord(const Chord& chord, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  if (mesh->triangle.size() > 0x7fffffff) {
-    return fail(Code::too_large, "the spacing is too small for the network");
-  }
-  const uint32_t middle = mesh->vertices++;
-  TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
-  TRY(mesh->placed.push(builder->raised[chord.patch]));
-  const uint32_t* own = &builder->patch_start[chord.patch];
-  const uint32_t first_split = builder->patch_start.back();
-  const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
-  TRY(split_triangles(chord, own[0], own[1], middle, builder));
-  TRY(split_triangles(chord, first_split, triangles, middle, builder));
-  return mesh->triangle.context().checkpoint();
+static const Vec3& drawn_at(const InlayWork& work, Span<const Vec3> position, uint32_t number) {
+  return number < work.rim ? position[number] : work.foot[number - work.rim];
 }
 
-/* Splits every chord that stands in two patches or beside a curve's edge. */
-static Status split_shared_chords(const Network& network, const CurveVertices& vertices,
-                                  Builder* builder) {
-  for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
-      const uint32_t a = segment_vertex(network, vertices, s, k);
-      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
-      TRY(builder->chord.push({a < b ? a : b, a < b ? b : a, k_none}));
+/* Whether an inner vertex stands too near to the curves to stay. */
+static bool in_the_way(const InlayWork& work, Span<const Vec3> position, const Vec3& p) {
+  const double room = k_room * work.spacing;
+  for (const Vec3& foot : work.foot) {
+    const Vec3 gap = foot - p;
+    if (dot(gap, gap) < room * room) return true;
+  }
+  for (size_t e = 0; e < work.inlay.edge.size(); e += 2) {
+    const Vec3& a = drawn_at(work, position, work.inlay.edge[e]);
+    const Vec3& b = drawn_at(work, position, work.inlay.edge[e + 1]);
+    double at_a = 0.0, at_b = 0.0;
+    nearest_on_side(p, a, b, &at_a, &at_b);
+    const Vec3 gap = at_a * a + at_b * b - p;
+    if (dot(gap, gap) < room * room) return true;
+  }
+  return false;
+}
+
+/* What stood in the way, in numbers of the inlay: rather a point of a curve than one of a loop. */
+static Status refuse_drawing(const InlayWork& work, const planar::Region& region,
+                             const planar::Conflict& conflict) {
+  Status status = fail(Code::patch_folded,
+                       "the curve crosses another one or the border of the patch that it lies in");
+  const auto take = [&](uint32_t number) {
+    if (number != k_none && number >= work.rim && status.place.vertex == k_none) {
+      status.place.vertex = number;
     }
-  }
-  sort(builder->chord.span(), before);
-  const Span<const Chord> chords = builder->chord.span();
-  for (size_t i = 0; i < chords.size(); ++i) {
-    const auto same = [&](size_t k) {
-      return k < chords.size() && chords[k].a == chords[i].a && chords[k].b == chords[i].b;
-    };
-    const bool shared = same(i + 1) || (i > 0 && same(i - 1));
-    if (shared && chords[i].patch != k_none) TRY(split_chord(chords[i], builder));
-  }
-  return {};
-}
-
-Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
-                    bool partial, PatchMesh* mesh) {
-  Context& context = mesh->triangle.context();
-  Builder builder(context, mesh);
-  PatchScratch scratch(context);
-  TRY(scratch.local.assign(vertices.position.size(), k_none));
-  mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
-  TRY(mesh->start.copy(vertices.position.span()));
-  TRY(mesh->placed.assign(mesh->vertices, 0));
-  for (uint32_t p = 0; p < network.patches(); ++p) {
-    TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-    const Status status =
-        at_patch(mesh_patch(network, vertices, least_facing, p, &scratch, &builder), network, p);
-    TRY(mesh->status.push(status));
-    TRY(builder.raised.push(scratch.raised));
-    if (!status.ok() && !(partial && may_be_left_out(status))) return status;
-    if (!status.ok()) TRY(mesh->way.push(PatchWay::plane));
-    TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
-  }
-  TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
-  if (mesh->patch.empty() && !mesh->status.empty()) return mesh->status[0];
-  TRY(split_shared_chords(network, vertices, &builder));
-  TRY(mesh->shape.resize(mesh->patch.size()));
-  for (size_t t = 0; t < mesh->shape.size(); ++t) {
-    const Vec3* corner = &builder.corner[3 * t];
-    mesh->shape[t] = mesh::triangle_shape(corner[0], corner[1], corner[2]);
-  }
-  return {};
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/patch_mesh.cpp ======== */
-
-/* ======== begin src/network/crease.cpp ======== */
-namespace wireskin::network {
-
-namespace {
-
-/* Half-edges of the mesh by the vertex that they leave. */
-struct Corners {
-  Span<const uint32_t> triangle;
-  Array<uint32_t> start, corner;
-
-  Corners(Context& context, Span<const uint32_t> t)
-      : triangle(t), start(context), corner(context) {}
-
-  uint32_t half_edge(uint32_t from, uint32_t to) const {
-    for (uint32_t k = start[from]; k < start[from + 1]; ++k) {
-      if (triangle[mesh::next_half_edge(corner[k])] == to) return corner[k];
-    }
-    return k_none;
-  }
-};
-
-}  /* namespace */
-
-/* Calls visit(side, segment, entry, next entry, half-edge) for both sides of every edge of the */
-/* curves that has a triangle there: the normals of `side` at the half-edge's two ends are its */
-/* entries. */
-template <typename Visit>
-static void for_curve_sides(const Network& network, const CurveVertices& vertices,
-                            const Corners& corners, const Visit& visit) {
-  for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    const uint32_t first = vertices.side_start[s];
-    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
-      const uint32_t a = segment_vertex(network, vertices, s, k);
-      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
-      const uint32_t left = corners.half_edge(a, b), right = corners.half_edge(b, a);
-      if (left != k_none) visit(s, vertices.left[first + k], vertices.left[first + k + 1], left);
-      if (right != k_none)
-        visit(s, vertices.right[first + k + 1], vertices.right[first + k], right);
-    }
-  }
-}
-
-static Status cut_mesh(const Network& network, const CurveVertices& vertices,
-                       Span<const uint8_t> sharp, const Corners& corners, uint32_t count,
-                       CreasedMesh* creased) {
-  Array<uint8_t> marked(creased->held.context());
-  TRY(marked.assign(corners.triangle.size(), 0));
-  for_curve_sides(network, vertices, corners,
-                  [&](uint32_t s, const Vec3&, const Vec3&, uint32_t h) {
-                    if (sharp[network.segment[s].curve]) marked[h] = 1;
-                  });
-  return mesh::cut_open(count, corners.triangle, marked.span(), &creased->cut);
-}
-
-/* The mean of the normals known in every sector, and whether it opposes one of them. */
-static Status find_sector_normals(const Network& network, const CurveVertices& vertices,
-                                  const Corners& corners, Span<const Node> nodes,
-                                  CreasedMesh* creased) {
-  const Span<Vec3> normal = creased->normal.span();
-  const Span<const uint32_t> triangle = creased->cut.triangle.span();
-  for (Vec3& n : normal) n = Vec3{};
-  for_curve_sides(network, vertices, corners,
-                  [&](uint32_t, const Vec3& here, const Vec3& there, uint32_t h) {
-                    normal[triangle[h]] += here;
-                    normal[triangle[mesh::next_half_edge(h)]] += there;
-                  });
-  for (Vec3& n : normal) n = unit(n);
-  Status status;
-  const auto compare = [&](uint32_t s, const Vec3& n, uint32_t copy) {
-    const uint32_t v = creased->cut.origin[copy];
-    if (n == Vec3{} || dot(n, normal[copy]) > 0.0 || !status.ok()) return;
-    Place place;
-    place.curve = network.segment[s].curve;
-    if (v < nodes.size()) place.node = nodes[v].number;
-    status = fail(Code::inconsistent_normals,
-                  "the normal opposes those of the other curves of this sector of the node", place);
   };
-  for_curve_sides(network, vertices, corners,
-                  [&](uint32_t s, const Vec3& here, const Vec3& there, uint32_t h) {
-                    compare(s, here, triangle[h]);
-                    compare(s, there, triangle[mesh::next_half_edge(h)]);
-                  });
+  for (const uint32_t point : conflict.point) take(point);
+  for (const uint32_t edge : conflict.edge) {
+    if (edge == k_none) continue;
+    take(region.end(edge, 0));
+    take(region.end(edge, 1));
+  }
   return status;
 }
 
-Status cut_along_creases(const Network& network, const CurveVertices& vertices,
-                         Span<const uint8_t> sharp, Span<const Node> nodes, const PatchMesh& mesh,
-                         Span<const Vec3> position, CreasedMesh* creased) {
-  Context& context = creased->held.context();
-  Corners corners(context, mesh.triangle.span());
-  mesh::Topology topology(context);
-  Array<uint32_t> twins(context);
-  TRY(mesh::find_corners(mesh.vertices, corners.triangle, &corners.start, &corners.corner));
-  TRY(cut_mesh(network, vertices, sharp, corners, mesh.vertices, creased));
-  const uint32_t copies = creased->cut.vertices();
-  TRY(creased->position.resize(copies));
-  TRY(creased->normal.resize(copies));
-  TRY(creased->held.resize(copies));
-  TRY(creased->bare.resize(copies));
-  TRY(find_sector_normals(network, vertices, corners, nodes, creased));
-  for (uint32_t c = 0; c < copies; ++c) {
-    const uint32_t v = creased->cut.origin[c];
-    creased->position[c] = position[v];
-    creased->held[c] = v < mesh.curve_vertices;
-    creased->bare[c] = creased->held[c] && creased->normal[c] == Vec3{};
-  }
-  TRY(mesh::find_twins(copies, creased->cut.triangle.span(), &twins));
-  TRY(mesh::find_topology(copies, creased->cut.triangle.span(), twins.span(), &topology));
-  return creased->on_border.copy(topology.on_border.span());
-}
-
-void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle) {
-  for (size_t c = 0; c < creased.position.size(); ++c) {
-    position[creased.cut.origin[c]] = creased.position[c];
-  }
-  for (size_t h = 0; h < triangle.size(); ++h) {
-    triangle[h] = creased.cut.origin[creased.cut.triangle[h]];
-  }
-}
-
-Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
-                     Span<const uint32_t> patch, const VertexMeasures& measures) {
-  const size_t n = measures.normal.size(), copies = creased.position.size();
-  Array<Vec3> normal(context), given(context);
-  Array<double> curvature(context), count(context);
-  TRY(normal.resize(copies));
-  TRY(count.assign(n, 0.0));
-  const Span<const uint32_t> triangle = creased.cut.triangle.span();
-  mesh::vertex_normals(creased.position.span(), triangle, normal.span());
-  TRY(mesh::mean_curvature(creased.position.span(), normal.span(), triangle,
-                           creased.on_border.span(), &curvature));
-  TRY(given.assign(copies, Vec3{}));
-  for (size_t v = 0; v < n; ++v) {
-    measures.normal[v] = measures.constraint_normal[v] = Vec3{};
-    measures.mean_curvature[v] = 0.0;
-  }
-  for (size_t c = 0; c < copies; ++c) {
-    const uint32_t v = creased.cut.origin[c];
-    measures.normal[v] += normal[c];
-    measures.mean_curvature[v] += curvature[c];
-    if (creased.held[c] && !creased.bare[c]) given[c] = given_normal[c];
-    measures.constraint_normal[v] += given[c];
-    count[v] += 1.0;
-  }
-  for (size_t v = 0; v < n; ++v) {
-    /* The sides of a knife's edge cancel out: then the first copy's normal stands for both. */
-    const bool cancels = measures.normal[v] == Vec3{};
-    measures.normal[v] = unit(cancels ? normal[v] : measures.normal[v]);
-    measures.mean_curvature[v] /= count[v];
-    measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
-  }
-  *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
-  return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
-                               creased.held.span(), true, measures.dihedral);
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/crease.cpp ======== */
-
-/* ======== begin src/network/plane.cpp ======== */
-namespace wireskin::network {
-
-/* The mean of unit normals must be at least this long for its direction to mean anything. */
-static constexpr double k_least_mean_normal = 0.05;
-
-Plane plane_across(const Border& border, const Vec3& normal) {
-  Plane plane;
-  const double share = 1.0 / static_cast<double>(border.size());
-  for (const Vec3& p : border.position) plane.origin += share * p;
-  plane.normal = normal;
-  /* What is left of a vector nearly along the normal is rounding and may point anywhere. */
-  constexpr double k_least_sine = 1e-3;
-  const Vec3 first = border.position[0] - plane.origin;
-  Vec3 axis = reject(first, normal);
-  if (!(dot(axis, axis) > k_least_sine * k_least_sine * dot(first, first))) {
-    axis = reject(std::fabs(normal.x) > 0.8 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, normal);
-  }
-  plane.u = unit(axis);
-  plane.v = cross(normal, plane.u);
-  return plane;
-}
-
-Status fit_plane(const Border& border, Plane* plane) {
-  Vec3 normal;
-  const double share = 1.0 / static_cast<double>(border.size());
-  size_t count = 0;
-  for (const Vec3& n : border.normal) {
-    normal += share * n;
-    count += n != Vec3{};
-  }
-  if (count == 0) {
-    normal = unit(vector_area(border));
-    count = border.size();
-  }
-  if (!(length(normal) >= k_least_mean_normal * share * static_cast<double>(count))) {
-    return fail(Code::patch_without_plane,
-                "the normals of the patch's border cancel out, so it has no plane");
-  }
-  *plane = plane_across(border, unit(normal));
-  return {};
-}
-
-static double nearest_multiple(double x, const Scale& to_grid, const Scale& from_grid) {
-  const double steps = to_grid(x);
-  return from_grid(
-      static_cast<double>(static_cast<int64_t>(steps < 0.0 ? steps - 0.5 : steps + 0.5)));
-}
-
-void round_to_grid(Span<Vec2> polygon, double* spacing) {
-  constexpr int k_bits = 32;
-  double extent = 0.0;
-  for (const Vec2& p : polygon) {
-    const double x = std::fabs(p.x), y = std::fabs(p.y);
-    extent = x > extent ? x : extent;
-    extent = y > extent ? y : extent;
-  }
-  if (!(extent > 0.0) || !(*spacing < 16.0 * extent)) return;
-  const int exponent = binary_exponent(extent);
-  const Scale to_grid(k_bits - exponent), from_grid(exponent - k_bits);
-  for (Vec2& p : polygon) {
-    p = {nearest_multiple(p.x, to_grid, from_grid), nearest_multiple(p.y, to_grid, from_grid)};
-  }
-  const double rounded = nearest_multiple(*spacing, to_grid, from_grid);
-  if (rounded > 0.0) *spacing = rounded;
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/plane.cpp ======== */
-
-/* ======== begin src/network/enclosure.cpp ======== */
-namespace wireskin::network {
-
-namespace {
-
-/* The border of a patch seen in its plane. */
-struct Outline {
-  const Border& border;
-  Plane plane;
-  Array<Vec2> point;
-  double highest = 0.0, widest = 0.0;
-  double size = 0.0;  /* the square root of the area */
-
-  explicit Outline(const Border& of) : border(of), point(of.vertex.context()) {}
-};
-
-}  /* namespace */
-
-static uint32_t root_of_component(Span<uint32_t> parent, uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-static void join_along(const Network& network, const CurveVertices& vertices, uint32_t s,
-                       Span<uint32_t> parent) {
-  for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
-    const uint32_t a = root_of_component(parent, segment_vertex(network, vertices, s, k));
-    const uint32_t b = root_of_component(parent, segment_vertex(network, vertices, s, k + 1));
-    (a < b ? parent[b] : parent[a]) = a < b ? a : b;
-  }
-}
-
-Status find_components(const Network& network, const CurveVertices& vertices,
-                       Components* components) {
-  const uint32_t n = static_cast<uint32_t>(vertices.position.size());
-  Array<uint32_t>& of = components->of_vertex;
-  TRY(of.resize(n));
-  for (uint32_t v = 0; v < n; ++v) of[v] = v;
-  for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    join_along(network, vertices, s, of.span());
-  }
-  uint32_t count = 0;  /* roots are the least of their members, so they are numbered before these */
-  for (uint32_t v = 0; v < n; ++v) of[v] = of[v] == v ? count++ : of[of[v]];
-  Array<uint32_t>& start = components->members.start;
-  TRY(start.assign(size_t{count} + 1, 0));
-  TRY(components->members.item.resize(n));
-  for (uint32_t v = 0; v < n; ++v) ++start[of[v]];
-  starts_from_counts(start.span());
-  for (uint32_t v = 0; v < n; ++v) components->members.item[start[of[v]]++] = v;
-  for (uint32_t c = count; c > 0; --c) start[c] = start[c - 1];
-  start[0] = 0;
-  TRY(components->bounds.assign(count, 0));
-  for (uint32_t h : network.loop.item) {
-    components->bounds[of[segment_vertex(network, vertices, h / 2, 0)]] = 1;
-  }
-  return {};
-}
-
-/* Whether a ray from p to the right crosses the outline an odd number of times. */
-static bool inside(const Outline& outline, const Vec2& p) {
-  bool odd = false;
-  for (uint32_t l = 0; l < outline.border.loops(); ++l) {
-    for (uint32_t i = outline.border.start[l]; i < outline.border.start[l + 1]; ++i) {
-      const Vec2 &a = outline.point[i], &b = outline.point[next_on_border(outline.border, l, i)];
-      if ((a.y > p.y) == (b.y > p.y)) continue;
-      if (p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+static Status draw_curves(InlayWork* work, planar::Triangulation* t) {
+  planar::Conflict conflict;
+  Array<uint32_t> joined(t->points.context());
+  for (size_t l = 0; l + 1 < work->start.size(); ++l) {
+    for (uint32_t v = work->start[l]; v < work->start[l + 1]; ++v) {
+      TRY(work->border.push(v));
+      TRY(work->border.push(v + 1 == work->start[l + 1] ? work->start[l] : v + 1));
     }
   }
-  return odd;
+  const planar::Region region = {work->drawn.span(), work->border.span(), work->inlay.edge, false};
+  const Status status = planar::triangulate_region(region, t, &joined, &conflict);
+  const bool refused = status.code == Code::patch_folded || status.code == Code::bad_argument ||
+                       status.code == Code::patch_without_plane;
+  return refused ? refuse_drawing(*work, region, conflict) : status;
 }
 
-static Status draw_outline(Outline* outline) {
-  const Border& border = outline->border;
-  TRY(outline->point.resize(border.size()));
-  for (uint32_t i = 0; i < border.size(); ++i) {
-    const double height = std::fabs(outline->plane.height(border.position[i]));
-    outline->point[i] = outline->plane.project(border.position[i]);
-    if (height > outline->highest) outline->highest = height;
-    if (length(outline->point[i]) > outline->widest) outline->widest = length(outline->point[i]);
-  }
-  outline->size = std::sqrt(0.5 * std::fabs(dot(vector_area(border), outline->plane.normal)));
-  return {};
-}
-
-static void enclose(const CurveVertices& vertices, const Components& components, uint32_t c,
-                    const Outline& outline, uint32_t patch, Enclosing* best) {
-  constexpr double k_share_of_width = 0.1, k_share_for_pieces = 0.5, k_weight_of_height = 4.0;
-  const double share = components.bounds[c] ? k_share_of_width : k_share_for_pieces;
-  const double reach = outline.highest + share * outline.widest;
-  double excess = 0.0;
-  Vec3 normal;
-  for (uint32_t v : components.members[c]) {
-    const Vec3& p = vertices.position[v];
-    const Vec2 q = outline.plane.project(p);
-    const double height = std::fabs(outline.plane.height(p));
-    if (!(length(q) <= outline.widest && height <= reach && inside(outline, q))) return;
-    if (height - outline.highest > excess) excess = height - outline.highest;
-    normal += vertices.normal[v];
-  }
-  if (!components.bounds[c] && dot(normal, outline.plane.normal) < 0.0) return;
-  const double score = outline.size + k_weight_of_height * excess;
-  if (best->patch != k_none && !(score < best->score)) return;
-  *best = {patch, score, outline.plane.normal};
-}
-
-Status find_enclosing(const Network& network, const CurveVertices& vertices,
-                      const Components& components, Array<Enclosing>* enclosing) {
-  Context& context = enclosing->context();
-  const uint32_t count = components.members.count();
-  TRY(enclosing->assign(count, Enclosing{}));
+/* Inner vertices that rounding puts outside or onto something are left out. */
+static Status add_inner(InlayWork* work, Span<const Vec3> position, planar::Triangulation* t) {
+  Context& context = t->points.context();
   Array<uint32_t> order(context);
-  Border border(context);
-  TRY(order.resize(count));
-  for (uint32_t c = 0; c < count; ++c) order[c] = c;
-  const auto place = [&](uint32_t c) { return vertices.position[components.members[c][0]].x; };
-  sort(order.span(),
-       [&](uint32_t a, uint32_t b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
-  for (uint32_t p = 0; count > 1 && p < network.patches(); ++p) {
-    TRY(border_of_patch(network, vertices, p, &border));
-    Outline outline(border);
-    if (!fit_plane(border, &outline.plane).ok()) continue;
-    TRY(draw_outline(&outline));
-    const double reach = 2.0 * outline.widest + outline.highest;
-    size_t low = 0, high = count;
-    while (low < high) {
-      const size_t middle = low + (high - low) / 2;
-      if (place(order[middle]) < outline.plane.origin.x - reach) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    const uint32_t own = components.of_vertex[border.vertex[0]];
-    for (; low < count && place(order[low]) <= outline.plane.origin.x + reach; ++low) {
-      const uint32_t c = order[low];
-      if (c != own) enclose(vertices, components, c, outline, p, &(*enclosing)[c]);
-    }
-    TRY(context.checkpoint());
+  const size_t inner = position.size() - work->rim;
+  if (inner == 0) return {};
+  TRY(planar::insertion_order(work->flat.span().part(work->rim, inner), &order));
+  for (size_t i = 0; i < inner; ++i) {
+    if (i % 256 == 0) TRY(context.checkpoint());
+    const uint32_t v = work->rim + order[i];
+    if (in_the_way(*work, position, position[v])) continue;
+    const Vec2 p = work->flat[v];
+    const planar::Location location = planar::locate(t, p, t->hint, false);
+    const bool on_edge = location.where == planar::Where::on_edge;
+    if (!on_edge && location.where != planar::Where::inside) continue;
+    if (on_edge && t->constrained(location.edge)) continue;
+    if ((t->triangles[location.edge >> 2].flags & planar::k_outside) != 0) continue;
+    TRY(planar::collect_cavity(t, p, location.edge >> 2));
+    TRY(planar::fill_cavity(t, p));
+    TRY(work->vertex_of_point.push(v));
   }
   return {};
 }
 
-}  /* namespace wireskin::network */
-/* ======== end src/network/enclosure.cpp ======== */
-
-/* ======== begin src/network/group.cpp ======== */
-namespace wireskin::network {
-
-/* Loops whose normals agree with their axis better than this bound a patch by themselves, if no */
-/* other loop needs them. */
-static constexpr double k_clearly_closed = 0.5;
-/* Conormals must lead to the other loop with at least this cosine in the mean. */
-static constexpr double k_least_facing_cosine = 0.2;
-/* And with this one where both loops are of one component, neither of them being closed alone. */
-static constexpr double k_least_facing_in_component = 0.6;
-/* Choices whose areas differ by less than this part are equally good. */
-static constexpr double k_hardly_more = 1.1;
-/* Rule 2 looks at this many vertices of a loop at most. */
-static constexpr uint32_t k_most_probes = 64;
-
-namespace {
-
-/* What is being decided of each patch: `parent` as in union-find, reversed where the other side of */
-/* a ring was taken. */
-struct Grouping {
-  const CurveVertices& vertices;
-  Network* network;
-  Components components;
-  Array<Enclosing> enclosing;  /* of each component */
-  Array<uint32_t> component;   /* of each patch */
-  Array<uint32_t> parent;      /* of each patch */
-  Array<uint8_t> reversed;     /* of each patch */
-  Array<uint32_t> holder;      /* of each component that bounds nothing: its patch */
-  Array<uint8_t> ambiguous;    /* of each patch */
-
-  Grouping(Context& context, const CurveVertices& of, Network* net)
-      : vertices(of),
-        network(net),
-        components(context),
-        enclosing(context),
-        component(context),
-        parent(context),
-        reversed(context),
-        holder(context),
-        ambiguous(context) {}
-  uint32_t root(uint32_t p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
+/* From the chart back to the mesh, the curves at their feet. */
+static Status lift(const InlayWork& work, const planar::Triangulation& t, Array<Vec3>* position,
+                   Array<uint32_t>* triangle) {
+  Array<Vec3> place(position->context());
+  TRY(place.copy(position->span().part(0, work.rim)));
+  for (const Vec3& foot : work.foot) TRY(place.push(foot));
+  for (uint32_t v : work.vertex_of_point) TRY(place.push((*position)[v]));
+  triangle->clear();
+  for (const planar::Triangle& one : t.triangles) {
+    if ((one.flags & planar::k_outside) != 0) continue;
+    for (uint32_t v : one.vertex) TRY(triangle->push(v - planar::k_box_corners));
   }
-  void join(uint32_t a, uint32_t b) {
-    const uint32_t x = root(a), y = root(b);
-    (x < y ? parent[y] : parent[x]) = x < y ? x : y;
-  }
-};
-
-/* A side of a loop that may face another one: a thinned list of its vertices. */
-struct Facing {
-  uint32_t patch;
-  bool reversed;
-  uint32_t first, count;  /* of the probes */
-  bool needy;             /* hard to close alone */
-  double alone;           /* what closing it costs */
-  Vec3 centre;
-  double radius;
-};
-
-struct Probe {
-  Vec3 position, conormal;
-  double share;  /* of the length of the loop */
-};
-
-struct Band {
-  uint32_t a, b;
-  double area;
-};
-
-}  /* namespace */
-
-static Status take_components(Grouping* g) {
-  const Network& network = *g->network;
-  const uint32_t patches = network.patches();
-  TRY(find_components(network, g->vertices, &g->components));
-  TRY(g->component.resize(patches));
-  TRY(g->parent.resize(patches));
-  TRY(g->reversed.assign(patches, 0));
-  TRY(g->ambiguous.assign(patches, 0));
-  TRY(g->holder.assign(g->components.members.count(), k_none));
-  for (uint32_t p = 0; p < patches; ++p) {
-    g->parent[p] = p;
-    g->component[p] =
-        g->components.of_vertex[segment_vertex(network, g->vertices, network.cycle(p)[0] / 2, 0)];
-  }
+  *position = static_cast<Array<Vec3>&&>(place);
   return {};
 }
 
-/* ---- Rule 1 ------------------------------------------------------------------------------------- */
-
-/* Of each component the patches, ascending. */
-static Status list_patches(const Grouping& g, Lists* lists) {
-  TRY(lists->start.assign(g.components.members.count() + size_t{1}, 0));
-  TRY(lists->item.resize(g.component.size()));
-  for (uint32_t c : g.component) ++lists->start[c];
-  starts_from_counts(lists->start.span());
-  for (uint32_t p = 0; p < g.component.size(); ++p) lists->item[lists->start[g.component[p]]++] = p;
-  for (size_t c = lists->start.size() - 1; c > 0; --c) lists->start[c] = lists->start[c - 1];
-  lists->start[0] = 0;
-  return {};
-}
-
-/* The patch of an enclosed component whose border runs clockwise seen from the enclosing one's */
-/* normal, and faces the same way; of several the largest. */
-static Status clockwise_patch(const Grouping& g, Span<const uint32_t> patches, const Vec3& normal,
-                              uint32_t* found) {
-  Border border(g.parent.context());
+/* Carries the feet to the points, and the mesh with them. */
+static Status shift_to_points(const InlayWork& work, Span<const uint32_t> triangle,
+                              Span<Vec3> position) {
+  Array<Vec3> shift(work.flat.context());
   double greatest = 0.0;
-  *found = k_none;
-  for (uint32_t p : patches) {
-    TRY(border_of_patch(*g.network, g.vertices, p, &border));
-    const double area = dot(vector_area(border), normal) * (g.network->ring[p] ? 1.0 : -1.0);
-    if (dot(mean_normal(border), normal) < 0.0 || !(area > greatest)) continue;
-    greatest = area;
-    *found = p;
+  TRY(shift.assign(position.size(), Vec3{}));
+  for (uint32_t i = 0; i < work.foot.size(); ++i) {
+    shift[work.rim + i] = work.inlay.point[i] - work.foot[i];
+    greatest = larger(greatest, length(shift[work.rim + i]));
   }
+  /* What is rounding needs no system. */
+  constexpr double k_nothing = 1e-9;
+  if (greatest > k_nothing * work.spacing) {
+    TRY(spread_shift(work.flat.context(), work.held(), position, triangle, shift.span()));
+  }
+  for (size_t v = 0; v < position.size(); ++v) position[v] += shift[v];
+  for (uint32_t i = 0; i < work.foot.size(); ++i) position[work.rim + i] = work.inlay.point[i];
   return {};
 }
 
-static Status join_enclosed(Grouping* g) {
-  const uint32_t count = g->components.members.count();
-  Context& context = g->parent.context();
-  Array<uint32_t> order(context);
-  Lists patches(context);
-  TRY(list_patches(*g, &patches));
-  for (uint32_t c = 0; c < count; ++c) {
-    if (g->enclosing[c].patch != k_none) TRY(order.push(c));
-  }
-  /* The outermost first: the inside of a hole encloses nothing. */
-  const auto score = [&](uint32_t c) { return g->enclosing[c].score; };
-  sort(order.span(),
-       [&](uint32_t a, uint32_t b) { return score(a) != score(b) ? score(a) > score(b) : a < b; });
-  for (uint32_t c : order) {
-    const Enclosing& outer = g->enclosing[c];
-    if (g->reversed[outer.patch]) continue;
-    if (!g->components.bounds[c]) {
-      g->holder[c] = outer.patch;
-      continue;
-    }
-    uint32_t inner = k_none;
-    TRY(clockwise_patch(*g, patches[c], outer.normal, &inner));
-    if (inner == k_none) continue;
-    g->reversed[inner] = g->network->ring[inner];
-    g->join(outer.patch, inner);
-  }
-  return {};
+Status inlay_curves(Context& context, Span<const uint32_t> start, const Inlay& inlay,
+                    double spacing, Array<Vec3>* position, Array<uint32_t>* triangle) {
+  InlayWork work(context, start, inlay, spacing);
+  planar::Triangulation t(context);
+  TRY(lay_flat(context, start, position->span(), triangle->span(), &work.flat));
+  TRY(find_feet(position->span(), triangle->span(), &work));
+  TRY(draw_curves(&work, &t));
+  TRY(add_inner(&work, position->span(), &t));
+  TRY(lift(work, t, position, triangle));
+  const HeldCurves held = {work.held(), inlay.edge};
+  TRY(refine_loops(context, spacing, start, held, position, triangle));
+  TRY(shift_to_points(work, triangle->span(), position->span()));
+  return refine_loops(context, spacing, start, held, position, triangle);
 }
 
-/* ---- Rule 2 ------------------------------------------------------------------------------------- */
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/inlay.cpp ======== */
 
-/* The cosine between normals and axis in the mean over a loop, and the area that it encloses. */
-static double closing_cosine(const Border& border, double* area) {
-  const Vec3 axis = vector_area(border);
-  *area = 0.5 * length(axis);
-  return dot(mean_normal(border), unit(axis));
-}
+/* ======== begin src/planar/insertion_order.cpp ======== */
+namespace wireskin::planar {
 
-static Status add_facing(const Border& border, uint32_t patch, bool reversed, double cosine,
-                         double area, Array<Facing>* facing, Array<Probe>* probes) {
-  const uint32_t n = border.size();
-  const uint32_t count = n < k_most_probes ? n : k_most_probes;
-  const double least = larger(1.0 + cosine, 1e-3);
-  Facing f = {patch,
-              reversed,
-              static_cast<uint32_t>(probes->size()),
-              count,
-              cosine < k_clearly_closed,
-              8.0 * area / (least * least * least),
-              Vec3{},
-              0.0};
-  const double total = border_length(border);
-  for (uint32_t k = 0; k < count; ++k) {
-    const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
-    const Vec3& p = border.position[i];
-    const Vec3& next = border.position[i + 1 < n ? i + 1 : 0];
-    const Vec3& before = border.position[i > 0 ? i - 1 : n - 1];
-    const Vec3 conormal = unit(cross(border.normal[i], next - before));
-    TRY(probes->push({p, reversed ? -conormal : conormal, total / count}));
-    f.centre += (1.0 / count) * p;
-  }
-  for (uint32_t k = 0; k < count; ++k) {
-    f.radius = larger(f.radius, length((*probes)[f.first + k].position - f.centre));
-  }
-  return facing->push(f);
-}
-
-static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing>* facing,
-                          Array<Probe>* probes) {
-  const Network& network = *g->network;
-  Border border(g->parent.context());
-  for (uint32_t p = 0; p < network.patches(); ++p) {
-    if (g->root(p) != p || g->reversed[p] ||
-        network.patch_start[p + 1] != network.patch_start[p] + 1)
-      continue;
-    TRY(border_of_patch(network, g->vertices, p, &border));
-    double area = 0.0;
-    const double cosine = closing_cosine(border, &area);
-    TRY(add_facing(border, p, false, cosine, area, facing, probes));
-    if (network.ring[p] && !decided[p]) {
-      /* A ring alone takes the cheaper side. */
-      TRY(add_facing(border, p, true, -cosine, area, facing, probes));
-      Facing *one = &(*facing)[facing->size() - 2], *other = &facing->back();
-      one->alone = other->alone = smaller(one->alone, other->alone);
-    }
-    TRY(border.vertex.context().checkpoint());
-  }
-  return {};
-}
-
-/* The area of a band from a's probes to the nearest ones of b, more where its conormals lead */
-/* elsewhere; negative where they do not lead there. */
-static double half_band(const Facing& a, const Facing& b, Span<const Probe> probes,
-                        double least_cosine) {
-  double area = 0.0, cosine = 0.0;
-  for (const Probe& p : probes.part(a.first, a.count)) {
-    Vec3 nearest;
-    double least = DBL_MAX;
-    for (const Probe& q : probes.part(b.first, b.count)) {
-      const Vec3 way = q.position - p.position;
-      if (dot(way, way) < least) {
-        least = dot(way, way);
-        nearest = way;
-      }
-    }
-    if (least == 0.0) return -1.0;  /* loops that touch */
-    area += 0.5 * p.share * std::sqrt(least);
-    cosine += dot(p.conormal, unit(nearest)) / static_cast<double>(a.count);
-  }
-  return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
-}
-
-static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<const Probe> probes,
-                         Array<Band>* bands) {
-  constexpr double k_far = 8.0;
-  for (uint32_t i = 0; i < facing.size(); ++i) {
-    const Facing& a = facing[i];
-    for (uint32_t j = 0; a.needy && j < facing.size(); ++j) {
-      const Facing& b = facing[j];
-      const bool same = g.component[a.patch] == g.component[b.patch];
-      if ((same && !b.needy) || a.patch == b.patch || (b.needy && j < i)) continue;
-      const double least = same ? k_least_facing_in_component : k_least_facing_cosine;
-      if (length(a.centre - b.centre) > k_far * (a.radius + b.radius)) continue;
-      const double from_a = half_band(a, b, probes, least);
-      if (from_a < 0.0) continue;
-      const double from_b = half_band(b, a, probes, least);
-      if (from_b < 0.0) continue;
-      TRY(bands->push({i, j, from_a + from_b}));
-    }
-    TRY(bands->context().checkpoint());
-  }
-  sort(bands->span(), [](const Band& x, const Band& y) {
-    if (x.area != y.area) return x.area < y.area;
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  });
-  return {};
-}
-
-/* Whether two groups have loops of the same component: a patch that meets itself across a curve is */
-/* never what normals ask for where another loop was nearer. */
-static bool share_component(Grouping* g, Span<const Facing> facing, uint32_t a, uint32_t b) {
-  for (const Facing& x : facing) {
-    if (g->root(x.patch) != g->root(a)) continue;
-    for (const Facing& y : facing) {
-      if (g->root(y.patch) == g->root(b) && g->component[x.patch] == g->component[y.patch]) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-namespace {
-
-/* How far rule 2 has come. */
-struct Pairing {
-  Array<Facing> facing;
-  Array<uint8_t> joined;   /* facing */
-  Array<uint8_t> decided;  /* patch: which side of a ring has the surface */
-
-  explicit Pairing(Context& context) : facing(context), joined(context), decided(context) {}
+struct OrderKey {
+  uint64_t key;
+  uint32_t index;
 };
 
-}  /* namespace */
+static constexpr int k_most_hilbert_bits = 20;
+static constexpr int k_digit_bits = 11;
+/* So many points in one cell are worth a finer grid. */
+static constexpr size_t k_crowd = 64;
 
-/* What closing the two loops by themselves would cost, as far as they are not joined yet. */
-static double cost_alone(const Pairing& pairing, const Band& band) {
-  return (pairing.joined[band.a] ? 0.0 : pairing.facing[band.a].alone) +
-         (pairing.joined[band.b] ? 0.0 : pairing.facing[band.b].alone);
-}
-
-static bool loops_may_join(Grouping* g, const Pairing& pairing, const Band& band) {
-  const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
-  const bool wrong_side = (pairing.decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
-                          (pairing.decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
-  if (!(band.area < cost_alone(pairing, band)) || wrong_side) return false;
-  const bool same = g->component[a.patch] == g->component[b.patch];
-  const bool both_alone = !pairing.joined[band.a] && !pairing.joined[band.b];
-  return same ? both_alone : !share_component(g, pairing.facing.span(), a.patch, b.patch);
-}
-
-/* Whether closing the loops alone, or one of the bands that follow, which are larger, was hardly */
-/* worse than the first band and contradicts it. */
-static bool is_ambiguous(Grouping* g, const Pairing& pairing, Span<const Band> bands) {
-  const Band& band = bands[0];
-  if (cost_alone(pairing, band) < k_hardly_more * band.area) return true;
-  const uint32_t own[2] = {pairing.facing[band.a].patch, pairing.facing[band.b].patch};
-  for (size_t i = 1; i < bands.size() && bands[i].area < k_hardly_more * band.area; ++i) {
-    const Facing &a = pairing.facing[bands[i].a], &b = pairing.facing[bands[i].b];
-    for (int k = 0; k < 2; ++k) {
-      const bool reversed = pairing.facing[k == 0 ? band.a : band.b].reversed;
-      /* The same loop by its other side, or where it has one side only, with another loop. */
-      const bool by_a = a.patch == own[k] && (a.reversed != reversed || b.patch != own[1 - k]);
-      const bool by_b = b.patch == own[k] && (b.reversed != reversed || a.patch != own[1 - k]);
-      if ((by_a || by_b) && loops_may_join(g, pairing, bands[i])) return true;
-    }
-  }
-  return false;
-}
-
-static Status join_facing(Grouping* g) {
-  Context& context = g->parent.context();
-  Pairing pairing(context);
-  Array<Probe> probes(context);
-  Array<Band> bands(context);
-  Array<uint8_t>&joined = pairing.joined, &decided = pairing.decided;
-  TRY(decided.assign(g->parent.size(), 0));
-  for (uint32_t p = 0; p < decided.size(); ++p) {
-    if (g->root(p) != p) decided[p] = decided[g->root(p)] = 1;
-  }
-  TRY(list_facing(g, decided.span(), &pairing.facing, &probes));
-  TRY(list_bands(*g, pairing.facing.span(), probes.span(), &bands));
-  TRY(joined.assign(pairing.facing.size(), 0));
-  for (size_t i = 0; i < joined.size(); ++i) joined[i] = decided[pairing.facing[i].patch];
-  for (size_t i = 0; i < bands.size(); ++i) {
-    const Band& band = bands[i];
-    if (!loops_may_join(g, pairing, band)) continue;
-    const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
-    if (is_ambiguous(g, pairing, bands.span().part(i, bands.size() - i))) {
-      g->ambiguous[a.patch] = g->ambiguous[b.patch] = 1;
-    }
-    decided[a.patch] = decided[b.patch] = 1;
-    g->reversed[a.patch] = a.reversed;
-    g->reversed[b.patch] = b.reversed;
-    joined[band.a] = joined[band.b] = 1;
-    g->join(a.patch, b.patch);
-    TRY(context.checkpoint());
-  }
-  return {};
-}
-
-/* ---- The result --------------------------------------------------------------------------------- */
-
-/* A ring on its own needs normals that tell inside from outside. */
-static Status check_rings(Grouping* g) {
-  constexpr double k_no_cosine = 1e-6, k_clear_area = 1.0 / 60.0;
-  Border border(g->parent.context());
-  Array<uint32_t> members(g->parent.context());
-  TRY(members.assign(g->parent.size(), 0));
-  for (uint32_t p = 0; p < members.size(); ++p) ++members[g->root(p)];
-  for (uint32_t p = 0; p < members.size(); ++p) {
-    if (!g->network->ring[p] || members[g->root(p)] != 1) continue;
-    TRY(border_of_patch(*g->network, g->vertices, p, &border));
-    double area = 0.0;
-    bool known = false;
-    for (const Vec3& n : border.normal) known = known || n != Vec3{};
-    const double cosine = closing_cosine(border, &area), perimeter = border_length(border);
-    const bool clear = area > k_clear_area * perimeter * perimeter;
-    if (!known || !clear || std::fabs(cosine) > k_no_cosine) continue;
-    Place place;
-    place.curve = g->network->segment[g->network->cycle(p)[0] / 2].curve;
-    place.sample = 0;
-    return fail(Code::open_network,
-                "the normals do not tell on which side of this boundary curve the surface lies",
-                place);
-  }
-  return {};
-}
-
-static Status check_holders(const Grouping& g) {
-  const Network& network = *g.network;
-  for (uint32_t c = 0; c < g.holder.size(); ++c) {
-    if (g.components.bounds[c] || g.holder[c] != k_none) continue;
-    const uint32_t v = g.components.members[c][0];
-    Place place;
-    place.curve = g.vertices.curve[v];
-    for (const Segment& s : network.segment) {
-      const bool here = s.from != k_none && (g.components.of_vertex[s.from] == c);
-      if (here && s.curve < place.curve) place.curve = s.curve;
-    }
-    return fail(Code::open_network,
-                place.curve == k_none ? "the point lies inside no patch"
-                                      : "the curve bounds no patch and lies inside none",
-                place);
-  }
-  return {};
-}
-
-static Status append_loops(const Grouping& g, uint32_t p, Lists* loops) {
-  const Network& old = *g.network;
-  for (uint32_t l = old.patch_start[p]; l < old.patch_start[p + 1]; ++l) {
-    const Span<const uint32_t> half = old.loop[l];
-    for (size_t i = 0; i < half.size(); ++i) {
-      TRY(loops->item.push(g.reversed[p] ? opposite(half[half.size() - 1 - i]) : half[i]));
-    }
-    TRY(loops->close());
-  }
-  return {};
-}
-
-/* What lies inside each patch: the segments of its own cycle, loose pieces and points. `held` lists */
-/* the components by holder, `piece` the list of loose segments of each component. */
-static Status append_inside(const Grouping& g, uint32_t p, Span<const uint32_t> held,
-                            Span<const uint32_t> piece, Network* fresh) {
-  const Network& old = *g.network;
-  for (uint32_t s : old.inner[p]) TRY(fresh->inner.item.push(s));
-  for (uint32_t c : held) {
-    if (piece[c] == k_none) {
-      TRY(fresh->point.item.push(g.components.members[c][0]));
-      continue;
-    }
-    for (uint32_t s : old.loose[piece[c]]) TRY(fresh->inner.item.push(s));
-  }
-  return {};
-}
-
-/* Sorted by holder; `start[p]` .. `start[p + 1]` are those of patch p. */
-static Status list_held(const Grouping& g, Lists* held) {
-  TRY(held->start.assign(g.parent.size() + 1, 0));
-  for (uint32_t p : g.holder) {
-    if (p != k_none) ++held->start[p];
-  }
-  TRY(held->item.resize(starts_from_counts(held->start.span())));
-  for (uint32_t c = 0; c < g.holder.size(); ++c) {
-    if (g.holder[c] != k_none) held->item[held->start[g.holder[c]]++] = c;
-  }
-  for (size_t p = held->start.size() - 1; p > 0; --p) held->start[p] = held->start[p - 1];
-  held->start[0] = 0;
-  return {};
-}
-
-/* Writes the groups as the network's patches, in the order of the least patch of each. */
-static Status rebuild(Grouping* g, Ambiguity* ambiguity) {
-  Network& old = *g->network;
-  Context& context = old.segment.context();
-  Network fresh(context);
-  Lists held(context);
-  Array<uint32_t> order(context), piece(context);
-  TRY(list_held(*g, &held));
-  TRY(piece.assign(g->holder.size(), k_none));
-  for (uint32_t i = 0; i < old.loose.count(); ++i) {
-    piece[g->components.of_vertex[old.segment[old.loose[i][0]].from]] = i;
-  }
-  TRY(order.resize(old.patches()));
-  for (uint32_t p = 0; p < order.size(); ++p) order[p] = p;
-  sort(order.span(), [&](uint32_t a, uint32_t b) {
-    const uint32_t x = g->root(a), y = g->root(b);
-    return x != y ? x < y : a < b;
-  });
-  TRY(fresh.patch_start.push(0));
-  for (size_t first = 0, end = 0; first < order.size(); first = end) {
-    bool ambiguous = false;
-    while (end < order.size() && g->root(order[end]) == g->root(order[first])) {
-      const uint32_t p = order[end++];
-      ambiguous = ambiguous || g->ambiguous[p];
-      TRY(append_loops(*g, p, &fresh.loop));
-      TRY(append_inside(*g, p, held[p], piece.span(), &fresh));
-    }
-    if (ambiguous && ambiguity->patches++ == 0) ambiguity->first = fresh.patches();
-    TRY(fresh.patch_start.push(fresh.loop.count()));
-    TRY(fresh.ring.push(end - first == 1 ? old.ring[order[first]] : uint8_t{0}));
-    TRY(fresh.inner.close());
-    TRY(fresh.point.close());
-    TRY(context.checkpoint());
-  }
-  fresh.segment = static_cast<Array<Segment>&&>(old.segment);
-  old = static_cast<Network&&>(fresh);
-  return {};
-}
-
-Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity* ambiguity) {
-  Ambiguity unasked;
-  Context& context = network->segment.context();
-  Grouping g(context, vertices, network);
-  TRY(take_components(&g));
-  TRY(find_enclosing(*network, vertices, g.components, &g.enclosing));
-  TRY(join_enclosed(&g));
-  TRY(join_facing(&g));
-  TRY(check_rings(&g));
-  TRY(check_holders(g));
-  return rebuild(&g, ambiguity != nullptr ? ambiguity : &unasked);
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/group.cpp ======== */
-
-/* ======== begin src/network/kept_parts.cpp ======== */
-namespace wireskin::network {
-
-static Span<const uint32_t> kept_of_curve(const KeptSamples& samples, size_t curve) {
-  const uint32_t first = samples.kept_start[curve];
-  return samples.kept.part(first, samples.kept_start[curve + 1] - first);
-}
-
-static uint32_t count_nodes(const KeptSamples& samples) {
-  uint32_t nodes = 0;
-  for (const uint32_t node : samples.node) {
-    if (node != k_none && node >= nodes) nodes = node + 1;
-  }
-  return nodes;
-}
-
-/* Which part each curve is of, parts being numbered in the order of their first curves. */
-static Status number_parts(const KeptSamples& samples, Array<uint32_t>* part, uint32_t* parts) {
-  const uint32_t curves = static_cast<uint32_t>(samples.closed.size());
-  DisjointSets sets(part->context());
-  Array<uint32_t> curve_of_node(part->context());
-  TRY(sets.reset(curves));
-  TRY(curve_of_node.assign(count_nodes(samples), k_none));
-  TRY(part->resize(curves));
-  for (uint32_t c = 0; c < curves; ++c) {
-    for (const uint32_t k : kept_of_curve(samples, c)) {
-      const uint32_t node = samples.node[samples.start[c] + k];
-      if (node == k_none) continue;
-      if (curve_of_node[node] == k_none) curve_of_node[node] = c;
-      sets.unite(curve_of_node[node], c);
-    }
-  }
-  Array<uint32_t> number(part->context());
-  TRY(number.assign(curves, k_none));
-  *parts = 0;
-  for (uint32_t c = 0; c < curves; ++c) {
-    uint32_t& own = number[sets.find(c)];
-    if (own == k_none) own = (*parts)++;
-    (*part)[c] = own;
-  }
-  return {};
-}
-
-/* The curves part by part, in each in the order given. */
-Status KeptParts::sort_curves(Array<uint32_t>* order) {
-  Array<uint32_t> part(order->context()), fill(order->context());
-  uint32_t parts = 0;
-  TRY(number_parts(samples_, &part, &parts));
-  TRY(first_curve_.assign(size_t{parts} + 1, 0));
-  for (const uint32_t p : part) ++first_curve_[p + 1];
-  for (uint32_t p = 0; p < parts; ++p) first_curve_[p + 1] += first_curve_[p];
-  TRY(fill.copy(first_curve_.span()));
-  TRY(order->resize(part.size()));
-  for (uint32_t c = 0; c < part.size(); ++c) (*order)[fill[part[c]]++] = c;
-  return {};
-}
-
-Status KeptParts::copy_curves(Span<const uint32_t> order) {
-  TRY(start_.resize(order.size()));
-  TRY(closed_.resize(order.size()));
-  TRY(first_kept_.resize(first_curve_.size()));
-  TRY(kept_start_.reserve(order.size() + count()));
-  TRY(kept_.reserve(samples_.kept.size()));
-  kept_start_.clear();
-  kept_.clear();
-  first_kept_[0] = 0;
-  for (uint32_t p = 0; p < count(); ++p) {
-    kept_start_.push_reserved(0);
-    for (uint32_t i = first_curve_[p]; i < first_curve_[p + 1]; ++i) {
-      start_[i] = samples_.start[order[i]];
-      closed_[i] = samples_.closed[order[i]];
-      for (const uint32_t k : kept_of_curve(samples_, order[i])) kept_.push_reserved(k);
-      kept_start_.push_reserved(static_cast<uint32_t>(kept_.size()) - first_kept_[p]);
-    }
-    first_kept_[p + 1] = static_cast<uint32_t>(kept_.size());
-  }
-  return {};
-}
-
-KeptSamples KeptParts::part(uint32_t p) const {
-  const uint32_t first = first_curve_[p], curves = first_curve_[p + 1] - first;
-  const uint32_t first_kept = first_kept_[p];
-  KeptSamples part = samples_;
-  part.start = start_.span().part(first, curves);
-  part.kept_start = kept_start_.span().part(first + p, curves + 1);
-  part.kept = kept_.span().part(first_kept, first_kept_[p + 1] - first_kept);
-  part.node = node_.span();
-  part.closed = closed_.span().part(first, curves);
-  return part;
-}
-
-/* Every node is of one part only, so one array of numbers serves all of them. */
-Status KeptParts::number_nodes() {
-  Array<uint32_t> number(node_.context());
-  TRY(number.assign(count_nodes(samples_), k_none));
-  TRY(node_.assign(samples_.node.size(), k_none));
-  for (uint32_t p = 0; p < count(); ++p) {
-    const KeptSamples own = part(p);
-    uint32_t nodes = 0;
-    for (uint32_t c = 0; c < own.closed.size(); ++c) {
-      for (const uint32_t k : kept_of_curve(own, c)) {
-        const uint32_t sample = own.start[c] + k, node = samples_.node[sample];
-        if (node == k_none) continue;
-        if (number[node] == k_none) number[node] = nodes++;
-        node_[sample] = number[node];
+/* The place of the cell (x, y) along the Hilbert curve through 2^bits x 2^bits cells. */
+static uint64_t hilbert_place(uint32_t x, uint32_t y, int bits) {
+  uint64_t place = 0;
+  for (uint32_t half = 1u << (bits - 1); half > 0; half >>= 1) {
+    const uint32_t right = (x & half) != 0 ? 1u : 0u;
+    const uint32_t upper = (y & half) != 0 ? 1u : 0u;
+    place = 4 * place + ((3 * right) ^ upper);
+    /* The curve enters the lower quarters turned; turn the rest of the coordinates back. */
+    if (upper == 0) {
+      if (right != 0) {
+        x = ~x;
+        y = ~y;
       }
+      const uint32_t kept = x;
+      x = y;
+      y = kept;
     }
+  }
+  return place;
+}
+
+/* Three quarters of the points belong to the last round, three quarters of the rest to the one */
+/* before, and so on, by lot: drawn from the index, with the mixing of S. Vigna's splitmix64 (2015). */
+static uint64_t insertion_round(uint32_t index, uint64_t last_round) {
+  uint64_t z = (index + 1ull) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  z ^= z >> 31;
+  uint64_t round = last_round;
+  for (; round > 0 && (z & 3) == 0; z >>= 2) --round;
+  return round;
+}
+
+/* Sorts by the lowest `bits` of the keys, equal ones by the order they are in: digit by digit from */
+/* the lowest, between the two arrays, and leaves the result in the first. */
+static Status sort_by_digits(Array<OrderKey>* keys, int bits) {
+  constexpr uint32_t k_digits = 1u << k_digit_bits;
+  const size_t count = keys->size();
+  Array<OrderKey> other(keys->context());
+  Array<uint32_t> starts(keys->context());
+  TRY(other.resize(count));
+  TRY(starts.resize(k_digits + 1));
+  for (int shift = 0; shift < bits; shift += k_digit_bits) {
+    const auto digit = [shift](const OrderKey& key) { return key.key >> shift & (k_digits - 1); };
+    for (uint32_t& start : starts) start = 0;
+    for (const OrderKey& key : *keys) ++starts[digit(key)];
+    starts_from_counts(starts.span());
+    for (const OrderKey& key : *keys) other[starts[digit(key)]++] = key;
+    Array<OrderKey> sorted = static_cast<Array<OrderKey>&&>(other);
+    other = static_cast<Array<OrderKey>&&>(*keys);
+    *keys = static_cast<Array<OrderKey>&&>(sorted);
   }
   return {};
 }
 
-Status KeptParts::split(const KeptSamples& samples) {
-  samples_ = samples;
-  Array<uint32_t> order(start_.context());
-  TRY(sort_curves(&order));
-  TRY(copy_curves(order.span()));
-  return number_nodes();
+/* How many points the fullest cell of a round has. */
+static size_t longest_run(Span<const OrderKey> keys) {
+  size_t longest = 0, first = 0;
+  for (size_t i = 0; i < keys.size(); ++i) {
+    if (keys[i].key != keys[first].key) first = i;
+    if (i - first >= longest) longest = i - first + 1;
+  }
+  return longest;
 }
 
-}  /* namespace wireskin::network */
-/* ======== end src/network/kept_parts.cpp ======== */
-
-/* ======== begin src/network/node_normals.cpp ======== */
-namespace wireskin::network {
-
-namespace {
-
-/* A stretch of curve between two nodes, with the unit tangents of the curve at its ends. */
-struct Link {
-  uint32_t from, to;
-  Vec3 first, last;
-};
-
-/* Of the tips of the unit tangents that leave a node: number, sum and the sum of their squares. */
-struct Tips {
-  double count;
-  Vec3 sum;
-  Vec3 row[3];
-  Vec3 tangent[2];  /* the first two */
-};
-
-enum class Sense : uint8_t { unknown, reached, known };
-
-}  /* namespace */
-
-static Status find_links(const curves::Curves& curves, Array<Link>* links) {
-  for (uint32_t c = 0; c < curves.size(); ++c) {
-    const curves::Curve curve = curves[c];
-    uint32_t before = k_none;
-    for (uint32_t k = 0; k < curve.node.size(); ++k) {
-      if (curve.node[k] == k_none) continue;
-      if (before != k_none) {
-        TRY(links->push({curve.node[before], curve.node[k], unit(tangent_at_knot(curve, before)),
-                         unit(tangent_at_knot(curve, k))}));
-      }
-      before = k;
-    }
+static Status sort_by_cells(Span<const Vec2> points, int hilbert_bits, uint64_t last_round,
+                            Array<OrderKey>* keys) {
+  Vec2 low = points[0];
+  Vec2 high = points[0];
+  for (const Vec2& p : points) {
+    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y};
+    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y};
   }
+  const double extent = larger(high.x - low.x, high.y - low.y);
+  const double cells = static_cast<double>((1u << hilbert_bits) - 1);
+  const double step = extent > 0.0 ? cells / extent : 0.0;
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    const Vec2 cell = step * (points[i] - low);
+    const uint64_t place =
+        hilbert_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y), hilbert_bits);
+    (*keys)[i] = {insertion_round(i, last_round) << (2 * hilbert_bits) | place, i};
+  }
+  int bits = 2 * hilbert_bits;
+  for (uint64_t round = last_round; round > 0; round >>= 1) ++bits;
+  return sort_by_digits(keys, bits);
+}
+
+Status insertion_order(Span<const Vec2> points, Array<uint32_t>* order) {
+  const size_t count = points.size();
+  Array<OrderKey> keys(order->context());
+  TRY(keys.resize(count));
+  TRY(order->resize(count));
+  if (count == 0) return {};
+  /* The first round should hold a few hundred points at most; more rounds would only lengthen */
+  /* walks. */
+  uint64_t last_round = 0;
+  int hilbert_bits = 6;
+  for (size_t rest = count; rest > 256; rest >>= 2) {
+    ++last_round;
+    ++hilbert_bits;
+  }
+  TRY(sort_by_cells(points, hilbert_bits, last_round, &keys));
+  if (longest_run(keys.span()) > k_crowd) {
+    TRY(sort_by_cells(points, k_most_hilbert_bits, last_round, &keys));
+  }
+  for (size_t i = 0; i < count; ++i) (*order)[i] = keys[i].index;
   return {};
 }
 
-static void add_tip(const Vec3& tangent, Tips* tips) {
-  if (tips->count < 2.0) tips->tangent[tips->count > 0.0] = tangent;
-  tips->count += 1.0;
-  tips->sum += tangent;
-  tips->row[0] += tangent.x * tangent;
-  tips->row[1] += tangent.y * tangent;
-  tips->row[2] += tangent.z * tangent;
-}
-
-/* The eigenvector of the least eigenvalue of a symmetric matrix: the adjugate has it for its */
-/* greatest, and squaring leaves that alone. */
-static Vec3 least_eigenvector(const Vec3 (&row)[3]) {
-  Vec3 a[3] = {cross(row[1], row[2]), cross(row[2], row[0]), cross(row[0], row[1])};
-  for (int k = 0; k < 8; ++k) {
-    const double trace = a[0].x + a[1].y + a[2].z;
-    if (!(trace > 0.0)) return {};
-    Vec3 square[3];
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 r = (1.0 / trace) * a[i];
-      square[i] = (1.0 / trace) * (r.x * a[0] + r.y * a[1] + r.z * a[2]);
-    }
-    for (int i = 0; i < 3; ++i) a[i] = square[i];
-  }
-  const Vec3& xy = a[0].x >= a[1].y ? a[0] : a[1];
-  const double greatest = a[0].x >= a[1].y ? a[0].x : a[1].y;
-  return unit(greatest >= a[2].z ? xy : a[2]);
-}
-
-/* Any vector across a unit vector. */
-static Vec3 across(const Vec3& t) {
-  return unit(std::fabs(t.x) < 0.7 ? cross(t, {1, 0, 0}) : cross(t, {0, 1, 0}));
-}
-
-/* Two curves have only one order: any direction across them will do. */
-static Vec3 axis_of(const Tips& tips) {
-  if (tips.count < 3.0) {
-    const Vec3 normal = cross(tips.tangent[0], tips.tangent[1]);
-    return length(normal) > 0.1 ? unit(normal) : across(tips.tangent[0]);
-  }
-  const double share = 1.0 / tips.count;
-  const Vec3 row[3] = {tips.row[0] - share * tips.sum.x * tips.sum,
-                       tips.row[1] - share * tips.sum.y * tips.sum,
-                       tips.row[2] - share * tips.sum.z * tips.sum};
-  return least_eigenvector(row);
-}
-
-/* The cosine between the normal at one end of a link, carried along it to the other, and the axis */
-/* there, both taken across the curve; 0 where the curve turns back. */
-static double carried_cosine(const Vec3& normal, const Vec3& from, const Vec3& to,
-                             const Vec3& axis) {
-  const double sum = 1.0 + dot(from, to);
-  if (!(sum > 0.1)) return 0.0;
-  const Vec3 start = unit(reject(normal, from));
-  const Vec3 carried = start - (dot(to, start) / sum) * (from + to);
-  return dot(carried, unit(reject(axis, to)));
-}
-
-/* Gives every node its axis. Where the sense is known it is taken from the normal, and the normal */
-/* itself stays where it is complete or the axis tells something else. */
-static void find_axes(Span<const Tips> tips, Span<Node> nodes, Span<Sense> sense) {
-  constexpr double k_agrees = 0.05;
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    const bool known = nodes[i].normal != Vec3{};
-    sense[i] = known ? Sense::known : Sense::unknown;
-    if (nodes[i].certain && known) continue;
-    const Vec3 axis = axis_of(tips[i]);
-    const double cosine = dot(axis, nodes[i].normal);
-    if (!known) {
-      nodes[i].normal = axis;
-    } else if (tips[i].count > 2.0 && std::fabs(cosine) > k_agrees) {
-      nodes[i].normal = cosine > 0.0 ? axis : -axis;
-    }
-  }
-}
-
-/* Carries the sense of those that have one to their neighbours until nothing changes. */
-static Status spread(Context& context, Span<const Link> links, Span<Node> nodes,
-                     Span<Sense> sense) {
-  constexpr double k_least_cosine = 0.2;
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (const Link& link : links) {
-      if ((sense[link.from] == Sense::unknown) == (sense[link.to] == Sense::unknown)) continue;
-      const bool forward = sense[link.to] == Sense::unknown;
-      const uint32_t to = forward ? link.to : link.from, from = forward ? link.from : link.to;
-      const double cosine = carried_cosine(nodes[from].normal, forward ? link.first : link.last,
-                                           forward ? link.last : link.first, nodes[to].normal);
-      if (!(std::fabs(cosine) > k_least_cosine)) continue;
-      if (cosine < 0.0) nodes[to].normal = -nodes[to].normal;
-      sense[to] = Sense::reached;
-      changed = true;
-    }
-    TRY(context.checkpoint());
-  }
-  return {};
-}
-
-static Status fail_without_sense(const Node& node) {
-  Place place;
-  place.node = node.number;
-  return fail(Code::missing_normals,
-              "nothing tells the outer side here: no normal is known at the node, nor do its "
-              "neighbours decide it",
-              place);
-}
-
-/* Turns the nodes just reached from `seed` outward, away from their middle. */
-static Status turn_outward(uint32_t seed, Span<Sense> sense, Span<Node> nodes) {
-  Vec3 middle;
-  double count = 0.0;
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    if (sense[i] != Sense::reached) continue;
-    middle += nodes[i].position;
-    count += 1.0;
-  }
-  middle = (1.0 / count) * middle;
-  double outward = 0.0, whole = 0.0;
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    if (sense[i] != Sense::reached) continue;
-    outward += dot(nodes[i].normal, nodes[i].position - middle);
-    whole += length(nodes[i].position - middle);
-  }
-  constexpr double k_clearly = 0.1;
-  if (!(std::fabs(outward) > k_clearly * whole)) return fail_without_sense(nodes[seed]);
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    if (sense[i] != Sense::reached) continue;
-    sense[i] = Sense::known;
-    if (outward < 0.0) nodes[i].normal = -nodes[i].normal;
-  }
-  return {};
-}
-
-Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes) {
-  Context& context = curves.start.context();
-  Array<Link> links(context);
-  Array<Tips> tips(context);
-  Array<Sense> sense(context);
-  TRY(find_links(curves, &links));
-  TRY(tips.assign(nodes.size(), Tips{}));
-  TRY(sense.resize(nodes.size()));
-  for (const Link& link : links) {
-    add_tip(link.first, &tips[link.from]);
-    add_tip(-link.last, &tips[link.to]);
-  }
-  find_axes(tips.span(), nodes, sense.span());
-  TRY(spread(context, links.span(), nodes, sense.span()));
-  for (Sense& s : sense) s = s == Sense::reached ? Sense::known : s;
-  for (uint32_t i = 0; i < nodes.size(); ++i) {
-    if (sense[i] != Sense::unknown || tips[i].count < 3.0) continue;
-    for (const Link& link : links) {
-      const bool decided = (link.from == i && sense[link.to] == Sense::known) ||
-                           (link.to == i && sense[link.from] == Sense::known);
-      if (decided) return fail_without_sense(nodes[i]);
-    }
-    sense[i] = Sense::reached;
-    TRY(spread(context, links.span(), nodes, sense.span()));
-    TRY(turn_outward(i, sense.span(), nodes));
-  }
-  return {};
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/node_normals.cpp ======== */
-
-/* ======== begin src/network/partial.cpp ======== */
-namespace wireskin::network {
-
-namespace {
-
-/* New numbers, k_none for what goes. */
-struct Renumbering {
-  Array<uint32_t> segment, node;
-
-  explicit Renumbering(Context& context) : segment(context), node(context) {}
-};
-
-}  /* namespace */
-
-static Status renumber(const Network& network, Span<const Status> status, size_t nodes,
-                       Renumbering* fresh, Array<uint8_t>* sides) {
-  TRY(fresh->segment.assign(network.segment.size(), k_none));
-  TRY(fresh->node.assign(nodes, k_none));
-  TRY(sides->assign(network.segment.size(), 0));
-  for (uint32_t p = 0; p < network.patches(); ++p) {
-    if (!status[p].ok()) continue;
-    for (uint32_t h : network.cycle(p)) ++(*sides)[h / 2];
-    for (uint32_t s : network.inner[p]) (*sides)[s] = 2;
-    for (uint32_t v : network.point[p]) fresh->node[v] = 0;
-  }
-  uint32_t count = 0;
-  for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    if ((*sides)[s] == 0) continue;
-    fresh->segment[s] = count++;
-    if (network.segment[s].from == k_none) continue;
-    fresh->node[network.segment[s].from] = fresh->node[network.segment[s].to] = 0;
-  }
-  count = 0;
-  for (uint32_t& number : fresh->node) {
-    if (number != k_none) number = count++;
-  }
-  return {};
-}
-
-static Status copy_patch(const Network& old, uint32_t p, const Renumbering& fresh,
-                         Network* result) {
-  for (uint32_t l = old.patch_start[p]; l < old.patch_start[p + 1]; ++l) {
-    for (uint32_t h : old.loop[l]) {
-      TRY(result->loop.item.push(2 * fresh.segment[h / 2] + h % 2));
-    }
-    TRY(result->loop.close());
-  }
-  for (uint32_t s : old.inner[p]) TRY(result->inner.item.push(fresh.segment[s]));
-  for (uint32_t v : old.point[p]) TRY(result->point.item.push(fresh.node[v]));
-  TRY(result->inner.close());
-  TRY(result->point.close());
-  TRY(result->ring.push(old.ring[p]));
-  return result->patch_start.push(result->loop.count());
-}
-
-Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
-                    Array<uint32_t>* original) {
-  Context& context = nodes->context();
-  Network result(context);
-  Renumbering fresh(context);
-  Array<uint8_t> sides(context);
-  TRY(renumber(*network, status, nodes->size(), &fresh, &sides));
-  for (uint32_t s = 0; s < network->segment.size(); ++s) {
-    if (fresh.segment[s] == k_none) continue;
-    Segment segment = network->segment[s];
-    segment.boundary = sides[s] == 1;
-    if (segment.from != k_none) {
-      segment.from = fresh.node[segment.from];
-      segment.to = fresh.node[segment.to];
-    }
-    TRY(result.segment.push(segment));
-  }
-  original->clear();
-  TRY(result.patch_start.push(0));
-  for (uint32_t p = 0; p < network->patches(); ++p) {
-    if (!status[p].ok()) continue;
-    TRY(original->push(p));
-    TRY(copy_patch(*network, p, fresh, &result));
-  }
-  size_t kept = 0;
-  for (size_t v = 0; v < nodes->size(); ++v) {
-    if (fresh.node[v] != k_none) (*nodes)[kept++] = (*nodes)[v];
-  }
-  nodes->shrink(kept);
-  *network = static_cast<Network&&>(result);
-  return {};
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/partial.cpp ======== */
+}  /* namespace wireskin::planar */
+/* ======== end src/planar/insertion_order.cpp ======== */
 
 /* ======== begin src/planar/constrained_delaunay.cpp ======== */
 namespace wireskin::planar {
@@ -21511,6 +23312,3584 @@ Status triangulate_region(const Region& region, Triangulation* t, Array<uint32_t
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/region.cpp ======== */
 
+/* ======== begin src/network/bend.cpp ======== */
+namespace wireskin::network {
+
+static constexpr double k_support = 16.0;
+
+/* 1 at 0, 0 from 1 on, with vanishing first and second derivatives there. */
+static double fade(double t) {
+  if (!(t < 1.0)) return 0.0;
+  return 1.0 - t * t * t * (10.0 - t * (15.0 - 6.0 * t));
+}
+
+/* Spreads the displacement of pin `i` one way, until the next pin; `step` is 1 or -1. */
+static void spread_pin(const Bend& bend, size_t i, bool forward) {
+  const size_t n = bend.arc.size();
+  const Vec3 shift = bend.displacement[i];
+  const double support = k_support * length(shift);
+  const auto walk = [&](const auto& visit) {
+    double wrapped = 0.0;
+    for (size_t k = i, steps = 0; steps < n; ++steps) {
+      const bool over = forward ? k + 1 == n : k == 0;
+      if (over && !bend.closed) return;
+      if (over) wrapped = bend.length;
+      k = forward ? (over ? 0 : k + 1) : (over ? n - 1 : k - 1);
+      const double away =
+          forward ? bend.arc[k] + wrapped - bend.arc[i] : bend.arc[i] + wrapped - bend.arc[k];
+      if (!visit(k, away)) return;
+    }
+  };
+  double reach = support;
+  walk([&](size_t k, double away) {
+    if (bend.pinned[k] && away < reach) reach = away;
+    return !bend.pinned[k] && away < support;
+  });
+  walk([&](size_t k, double away) {
+    if (bend.pinned[k] || !(away < reach)) return false;
+    bend.displacement[k] += fade(away / reach) * shift;
+    return true;
+  });
+}
+
+void bend_curve(const Bend& bend) {
+  for (size_t i = 0; i < bend.arc.size(); ++i) {
+    if (!bend.pinned[i] || bend.displacement[i] == Vec3{}) continue;
+    spread_pin(bend, i, true);
+    spread_pin(bend, i, false);
+  }
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/bend.cpp ======== */
+
+/* ======== begin src/network/nodes.cpp ======== */
+namespace wireskin::network {
+
+static uint32_t curve_of_sample(const SampleNumbers& samples, uint32_t sample) {
+  uint32_t low = 0, high = static_cast<uint32_t>(samples.start.size()) - 1;
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    (samples.start[middle] <= sample ? low : high) = middle;
+  }
+  return low;
+}
+
+static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,
+                      uint32_t sample) {
+  Place place;
+  place.curve = curve_of_sample(samples, sample);
+  place.sample = sample - samples.start[place.curve];
+  place.node = samples.number[sample];
+  return fail(code, sentence, place);
+}
+
+/* The normal of a node of sharp curves: normals differ across these, so none opposes another here. */
+static void merge_sides(const SampleNumbers& samples, Span<const uint32_t> members, Node* node) {
+  Vec3 sharp, smooth;
+  for (uint32_t sample : members) {
+    if (!samples.sharp[curve_of_sample(samples, sample)]) {
+      smooth += samples.normal[sample];
+      continue;
+    }
+    const Vec3 &left = samples.normal[sample], &right = samples.right[sample];
+    node->crease = true;
+    node->certain = node->certain && dot(left, left) > 0.0 && dot(right, right) > 0.0;
+    sharp += left + right;
+  }
+  if (!node->crease) return;
+  /* Sides that nearly cancel out have no mean that tells anything. */
+  constexpr double k_least_sum = 1e-3;
+  if (!(length(sharp) > k_least_sum)) node->certain = false;
+  node->normal = unit(node->certain ? sharp : sharp + smooth);
+}
+
+/* The directions in which a sample's curve leaves it, up to two of them. */
+struct Rays {
+  Vec3 direction[2];
+  int count = 0;
+};
+
+static Rays rays_of(const SampleNumbers& samples, uint32_t sample) {
+  const uint32_t c = curve_of_sample(samples, sample);
+  const Vec3& here = samples.position[sample];
+  Rays rays;
+  if (sample > samples.start[c]) {
+    rays.direction[rays.count++] = unit(samples.position[sample - 1] - here);
+  }
+  if (sample + 1 < samples.start[c + 1]) {
+    rays.direction[rays.count++] = unit(samples.position[sample + 1] - here);
+  }
+  return rays;
+}
+
+/* Whether the normals of two curves at their common node lie on different sides of the surface, */
+/* seen along every chord from the one curve to the other. */
+static bool contradict(const SampleNumbers& samples, uint32_t a, uint32_t b) {
+  constexpr double k_least_turn = 0.5;  /* of the chord between unit directions: 29 degrees */
+  const Vec3 &n = samples.normal[a], &m = samples.normal[b];
+  if (n == Vec3{} || m == Vec3{} || dot(n, m) > 0.0) return false;
+  const Rays from = rays_of(samples, a), to = rays_of(samples, b);
+  bool found = false;
+  for (int i = 0; i < from.count; ++i) {
+    for (int k = 0; k < to.count; ++k) {
+      const Vec3 chord = to.direction[k] - from.direction[i];
+      if (dot(chord, chord) < k_least_turn * k_least_turn) continue;
+      if (!curves::lies_across(n, from.direction[i])) continue;
+      if (!curves::lies_across(m, to.direction[k])) continue;
+      if (!curves::opposed(n, m, chord)) return false;
+      found = true;
+    }
+  }
+  return found;
+}
+
+/* At nodes of many curves each is only compared with the next few. */
+static constexpr size_t k_most_compared = 8;
+
+static size_t count_contradictions(const SampleNumbers& samples, Span<const uint32_t> members,
+                                   size_t of) {
+  size_t count = 0;
+  const size_t first = of > k_most_compared ? of - k_most_compared : 0;
+  for (size_t k = first; k < members.size() && k <= of + k_most_compared; ++k) {
+    count += k != of && contradict(samples, members[k], members[of]);
+  }
+  return count;
+}
+
+/* The sample whose normal contradicts most of the others at the node, the later one of two; k_none */
+/* where all agree. */
+static uint32_t contradicting_sample(const SampleNumbers& samples, Span<const uint32_t> members) {
+  size_t most = 0;
+  uint32_t worst = k_none;
+  for (size_t k = 0; k < members.size(); ++k) {
+    const size_t count = count_contradictions(samples, members, k);
+    if (count == 0 || count < most) continue;
+    most = count;
+    worst = members[k];
+  }
+  return worst;
+}
+
+/* Makes one node of the samples that carry the same number. */
+static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, double tolerance,
+                    Node* node) {
+  node->number = samples.number[members[0]];
+  node->position = samples.position[members[0]];
+  Vec3 sum;
+  for (uint32_t sample : members) {
+    if (length(samples.position[sample] - node->position) > tolerance) {
+      return fail_at(Code::node_mismatch, "samples of the same node lie at different points",
+                     samples, sample);
+    }
+    sum += samples.normal[sample];
+  }
+  node->normal = unit(sum);
+  if (!samples.sharp.empty()) merge_sides(samples, members, node);
+  if (node->crease) return {};
+  uint32_t worst = contradicting_sample(samples, members);
+  for (uint32_t sample : members) {
+    if (worst != k_none) break;
+    if (samples.normal[sample] == Vec3{}) continue;  /* a point without one */
+    if (!(dot(samples.normal[sample], node->normal) > 0.0)) worst = sample;
+  }
+  if (worst == k_none) return {};
+  return fail_at(Code::inconsistent_normals,
+                 "the normal opposes those of the other curves at this node; if only signs are "
+                 "wrong, the option orient makes them agree",
+                 samples, worst);
+}
+
+Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
+                  Array<uint32_t>* node_of_sample) {
+  Array<uint32_t> order(nodes->context());
+  TRY(order.reserve(samples.number.size()));
+  TRY(node_of_sample->assign(samples.number.size(), k_none));
+  for (uint32_t i = 0; i < samples.number.size(); ++i) {
+    if (samples.number[i] != k_none) order.push_reserved(i);
+  }
+  const Span<const uint32_t> number = samples.number;
+  sort(order.span(), [number](uint32_t a, uint32_t b) {
+    return number[a] != number[b] ? number[a] < number[b] : a < b;
+  });
+  nodes->clear();
+  for (size_t first = 0, end = 0; first < order.size(); first = end) {
+    while (end < order.size() && number[order[end]] == number[order[first]]) ++end;
+    if (end - first < 2) continue;
+    Node node;
+    TRY(merge(samples, order.span().part(first, end - first), tolerance, &node));
+    for (size_t k = first; k < end; ++k) {
+      (*node_of_sample)[order[k]] = static_cast<uint32_t>(nodes->size());
+    }
+    TRY(nodes->push(node));
+  }
+  return {};
+}
+
+Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
+                      Span<uint32_t> node_of_sample) {
+  for (uint32_t c = 0; c < closed.size(); ++c) {
+    const uint32_t first = samples.start[c], last = samples.start[c + 1] - 1;
+    if (closed[c] && first != last) continue;
+    for (int end = 0; end < (first == last ? 1 : 2); ++end) {
+      const uint32_t sample = end == 0 ? first : last;
+      if (node_of_sample[sample] != k_none) continue;
+      node_of_sample[sample] = static_cast<uint32_t>(nodes->size());
+      Node node = {samples.position[sample], samples.normal[sample], samples.number[sample]};
+      if (!samples.sharp.empty() && samples.sharp[c]) {
+        Array<uint32_t> self(nodes->context());
+        TRY(self.push(sample));
+        merge_sides(samples, self.span(), &node);
+      }
+      TRY(nodes->push(node));
+    }
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/nodes.cpp ======== */
+
+/* ======== begin src/network/network.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+struct Cycles {
+  Array<uint32_t> next;   /* of each half-segment */
+  Array<uint32_t> cycle;  /* of each half-segment */
+  uint32_t count = 0;
+
+  explicit Cycles(Context& context) : next(context), cycle(context) {}
+};
+
+}  /* namespace */
+
+/* The stretches between the nodes of one curve. */
+static Status cut_curve(const curves::Curve& curve, uint32_t index, bool boundary,
+                        Array<Segment>* segments) {
+  const uint32_t last = static_cast<uint32_t>(curve.node.size()) - 1;
+  const bool closed = curve.sample[0] == curve.sample[last];
+  if (closed && curve.node[0] == k_none) {
+    return segments->push({index, 0, last, k_none, k_none, boundary});
+  }
+  const uint32_t ends[] = {0, last};
+  for (uint32_t end : ends) {
+    if (curve.node[end] != k_none) continue;
+    return fail_at_sample(Code::open_network, "the curve ends here without meeting another curve",
+                          index, curve.sample[end]);
+  }
+  uint32_t first = 0;
+  for (uint32_t knot = 1; knot <= last; ++knot) {
+    if (curve.node[knot] == k_none) continue;
+    TRY(segments->push({index, first, knot, curve.node[first], curve.node[knot], boundary}));
+    first = knot;
+  }
+  return {};
+}
+
+static void number_cycles(Cycles* cycles) {
+  for (uint32_t h = 0; h < cycles->next.size(); ++h) {
+    if (cycles->cycle[h] != k_none) continue;
+    for (uint32_t g = h; cycles->cycle[g] == k_none; g = cycles->next[g]) {
+      cycles->cycle[g] = cycles->count;
+    }
+    ++cycles->count;
+  }
+}
+
+/* Twice the area that the cycle through h encloses, seen along the sum of its normals (of its */
+/* nodes' where the curves have none); the sign tells a patch, counter-clockwise, from the outside */
+/* of one. */
+static double signed_area(const Graph& graph, Span<const uint32_t> next, uint32_t h) {
+  const Segment& first = graph.segment_of(h);
+  const Vec3 base = graph.curves[first.curve].position.value[first.first_knot];
+  Vec3 area, normals, nodes;
+  uint32_t g = h;
+  do {
+    const Segment& segment = graph.segment_of(g);
+    const curves::Curve curve = graph.side_of(g);
+    const double sign = g % 2 == 0 ? 1.0 : -1.0;
+    for (uint32_t k = segment.first_knot; k < segment.last_knot; ++k) {
+      const Vec3 a = curve.position.value[k] - base, b = curve.position.value[k + 1] - base;
+      area += sign * cross(a, b);
+      normals += curve.normal.value[k];
+    }
+    if (segment.from != k_none) nodes += graph.nodes[graph.from(g)].normal;
+    g = next[g];
+  } while (g != h);
+  return dot(area, dot(normals, normals) > 0.0 ? normals : nodes);
+}
+
+static bool two_sided(const Cycles& cycles, uint32_t h) {
+  return cycles.cycle[h] == cycles.cycle[opposite(h)];
+}
+
+/* The cycle on the other side of h's cycle all the way round where that is the same one from both */
+/* sides, else k_none. */
+static uint32_t rival_of(const Cycles& cycles, uint32_t h) {
+  const uint32_t c = cycles.cycle[h], rival = cycles.cycle[opposite(h)];
+  if (rival == c) return k_none;
+  uint32_t g = h, count = 0, back = opposite(h);
+  do {
+    if (cycles.cycle[opposite(g)] != rival) return k_none;
+    g = cycles.next[g];
+    ++count;
+  } while (g != h);
+  do {
+    back = cycles.next[back];
+    --count;
+  } while (back != opposite(h) && count != 0);
+  return back == opposite(h) && count == 0 ? rival : k_none;
+}
+
+namespace {
+
+/* What is known of each cycle. */
+struct Judged {
+  Array<uint8_t> outside;  /* no surface there */
+  Array<uint8_t> ring;     /* as in Network */
+
+  explicit Judged(Context& context) : outside(context), ring(context) {}
+};
+
+}  /* namespace */
+
+/* Of a cycle all of whose segments are boundary and none of whose neighbours is a patch for sure: */
+/* counter-clockwise ones have the surface. */
+static void judge_by_area(const Graph& graph, const Cycles& cycles, uint32_t h, Judged* judged) {
+  const uint32_t c = cycles.cycle[h], rival = rival_of(cycles, h);
+  const double area = signed_area(graph, cycles.next.span(), h);
+  if (rival == k_none) {
+    judged->outside[c] = area < 0.0;
+    return;
+  }
+  judged->ring[c] = judged->ring[rival] = 1;
+  judged->outside[area < 0.0 ? c : rival] = 1;
+}
+
+/* Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for */
+/* sure, or else when they run clockwise. */
+static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* judged,
+                           Array<Status>* faults) {
+  Context& context = judged->outside.context();
+  Array<uint8_t> inner(context);  /* has a segment that is no boundary */
+  TRY(inner.assign(cycles.count, 0));
+  TRY(judged->outside.assign(cycles.count, 0));
+  TRY(judged->ring.assign(cycles.count, 0));
+  const uint32_t halves = static_cast<uint32_t>(cycles.next.size());
+  for (uint32_t h = 0; h < halves; ++h) {
+    if (!graph.segment_of(h).boundary) inner[cycles.cycle[h]] = 1;
+  }
+  for (uint32_t h = 0; h < halves; ++h) {
+    const uint32_t c = cycles.cycle[h];
+    if (!inner[c] && inner[cycles.cycle[opposite(h)]]) judged->outside[c] = 1;
+  }
+  Array<uint8_t> measured(context);
+  TRY(measured.assign(cycles.count, 0));
+  for (uint32_t h = 0; h < halves; ++h) {
+    const uint32_t c = cycles.cycle[h];
+    if (inner[c] || judged->outside[c] || judged->ring[c] || measured[c]) continue;
+    if (two_sided(cycles, h)) continue;
+    measured[c] = 1;
+    judge_by_area(graph, cycles, h, judged);
+  }
+  for (uint32_t h = 0; h < halves; h += 2) {
+    const Segment& segment = graph.segment_of(h);
+    const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
+    const int sides = !judged->outside[a] + !judged->outside[b];
+    const char* sentence = nullptr;
+    if (segment.boundary && sides != 1) {
+      sentence = !inner[a] && !inner[b] && a != b
+                     ? "the normals do not tell on which side of this boundary curve the surface "
+                       "lies"
+                     : "this boundary curve has the surface on both sides: every curve of a border "
+                       "must be tagged as boundary, and no other";
+    }
+    if (sentence == nullptr) continue;
+    const Status status = fail_at_sample(Code::open_network, sentence, segment.curve,
+                                         graph.curve_of(h).sample[segment.first_knot]);
+    if (faults == nullptr) return status;
+    (*faults)[h / 2] = status;
+  }
+  /* What lies there is to be named as a patch that fails. */
+  for (uint32_t h = 0; faults != nullptr && h < halves; ++h) {
+    if (!(*faults)[h / 2].ok()) judged->outside[cycles.cycle[h]] = 0;
+  }
+  return {};
+}
+
+/* Lists the loop of a cycle that begins with h, which has another cycle on its other side: where */
+/* the way goes on along a segment inside the patch, the next one clockwise is taken instead. */
+static void list_loop(const Cycles& cycles, uint32_t h, Span<uint8_t> done, Lists* loops) {
+  uint32_t g = h;
+  do {
+    done[g] = 1;
+    loops->item.push_reserved(g);
+    g = cycles.next[g];
+    while (two_sided(cycles, g)) g = cycles.next[opposite(g)];
+  } while (g != h);
+}
+
+static uint32_t root_of_node(Span<uint32_t> parent, uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+/* Loops and the segments between them must form a tree when every loop is shrunk to a point; else */
+/* the patch has a handle. `parent`: of each node, itself on entry and on return. */
+static Status check_handles(const Graph& graph, Span<const uint32_t> loops,
+                            Span<const uint32_t> inner, uint32_t patch, Span<uint32_t> parent) {
+  Status status;
+  for (uint32_t h : loops) {
+    const Segment& s = graph.segment_of(h);
+    if (s.from != k_none) parent[root_of_node(parent, s.from)] = root_of_node(parent, s.to);
+  }
+  for (uint32_t i : inner) {
+    const uint32_t a = root_of_node(parent, graph.segments[i].from);
+    const uint32_t b = root_of_node(parent, graph.segments[i].to);
+    parent[a] = b;
+    if (a != b || !status.ok()) continue;
+    Place place;
+    place.patch = patch;
+    place.curve = graph.segments[i].curve;
+    status = fail(Code::patch_several_loops,
+                  "the border of the patch passes a curve on both sides, round a handle", place);
+  }
+  const auto reset = [&](const Segment& s) {
+    if (s.from == k_none) return;
+    parent[s.from] = s.from;
+    parent[s.to] = s.to;
+  };
+  for (uint32_t h : loops) reset(graph.segment_of(h));
+  for (uint32_t i : inner) reset(graph.segments[i]);
+  return status;
+}
+
+/* The loops and the inner segments of the cycle through h become a patch, or a loose piece where it */
+/* has no loops. */
+static Status collect_patch(const Graph& graph, const Cycles& cycles, uint32_t h, bool ring,
+                            Span<uint8_t> done, Span<uint32_t> parent, Network* network,
+                            Array<Status>* faults) {
+  const uint32_t first_loop = network->loop.count();
+  Array<uint32_t> inner(network->segment.context());
+  uint32_t g = h;
+  do {
+    if (two_sided(cycles, g)) {
+      if (!done[opposite(g)]) TRY(inner.push(g / 2));
+      done[g] = 1;
+    } else if (!done[g]) {
+      list_loop(cycles, g, done, &network->loop);
+      TRY(network->loop.close());
+    }
+    g = cycles.next[g];
+  } while (g != h);
+  const uint32_t loops = network->loop.count();
+  Lists* list = loops == first_loop ? &network->loose : &network->inner;
+  Span<const uint32_t> halves;
+  if (loops > first_loop) {
+    TRY(network->patch_start.push(loops));
+    TRY(network->ring.push(ring));
+    TRY(network->point.close());
+    halves = network->cycle(network->patches() - 1);
+  }
+  for (uint32_t s : inner) TRY(list->item.push(s));
+  TRY(list->close());
+  if (inner.empty()) return {};
+  const bool loose = loops == first_loop;
+  const Status status =
+      check_handles(graph, halves, inner.span(), loose ? k_none : network->patches() - 1, parent);
+  if (status.ok() || loose || faults == nullptr) return status;
+  (*faults)[inner[0]] = status;
+  return {};
+}
+
+static Status collect_patches(const Graph& graph, const Cycles& cycles, const Judged& judged,
+                              Network* network, Array<Status>* faults) {
+  Context& context = network->patch_start.context();
+  Array<uint8_t> done(context);
+  Array<uint32_t> parent(context);
+  TRY(done.assign(cycles.next.size(), 0));
+  TRY(parent.resize(graph.nodes.size()));
+  for (uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
+  TRY(network->patch_start.push(0));
+  TRY(network->loop.item.reserve(cycles.next.size()));
+  for (uint32_t h = 0; h < cycles.next.size(); ++h) {
+    const uint32_t c = cycles.cycle[h];
+    if (judged.outside[c] || done[h]) continue;
+    TRY(collect_patch(graph, cycles, h, judged.ring[c] != 0, done.span(), parent.span(), network,
+                      faults));
+    if (h % 4096 == 4095) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+Status find_patches(const curves::Curves& curves, Span<const uint8_t> boundary,
+                    Span<const Node> nodes, Network* network, Array<Status>* faults) {
+  Context& context = network->segment.context();
+  for (uint32_t c = 0; c < curves.size(); ++c) {
+    TRY(cut_curve(curves[c], c, boundary[c] != 0, &network->segment));
+  }
+  const Graph graph = {curves, nodes, network->segment.span()};
+  Cycles cycles(context);
+  Judged judged(context);
+  TRY(cycles.next.resize(2 * network->segment.size()));
+  TRY(cycles.cycle.assign(2 * network->segment.size(), k_none));
+  if (faults != nullptr) TRY(faults->assign(network->segment.size(), Status{}));
+  TRY(link_half_segments(graph, cycles.next.span(), faults));
+  number_cycles(&cycles);
+  TRY(find_outside(graph, cycles, &judged, faults));
+  return collect_patches(graph, cycles, judged, network, faults);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/network.cpp ======== */
+
+/* ======== begin src/network/resample.cpp ======== */
+namespace wireskin::network {
+
+static double segment_length(const curves::Curves& curves, const Segment& segment) {
+  const curves::Curve curve = curves[segment.curve];
+  return curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
+}
+
+/* Marks with 3 the segments that return to their node, with 2 those that join the same two nodes as */
+/* another one, all others with 1. */
+static Status least_edges(Span<const Segment> segments, Array<uint32_t>* least) {
+  Array<uint32_t> order(least->context());
+  TRY(order.resize(segments.size()));
+  TRY(least->assign(segments.size(), 1));
+  const auto low = [&](uint32_t s) {
+    return segments[s].from < segments[s].to ? segments[s].from : segments[s].to;
+  };
+  const auto high = [&](uint32_t s) {
+    return segments[s].from < segments[s].to ? segments[s].to : segments[s].from;
+  };
+  for (uint32_t s = 0; s < segments.size(); ++s) order[s] = s;
+  sort(order.span(), [&](uint32_t a, uint32_t b) {
+    if (low(a) != low(b)) return low(a) < low(b);
+    return high(a) != high(b) ? high(a) < high(b) : a < b;
+  });
+  for (size_t i = 0; i < order.size(); ++i) {
+    const uint32_t s = order[i];
+    const auto joins_the_same = [&](size_t k) {
+      return low(order[k]) == low(s) && high(order[k]) == high(s);
+    };
+    if (segments[s].from == segments[s].to) {
+      (*least)[s] = 3;
+    } else if ((i > 0 && joins_the_same(i - 1)) ||
+               (i + 1 < order.size() && joins_the_same(i + 1))) {
+      (*least)[s] = 2;
+    }
+  }
+  return {};
+}
+
+/* Chooses the number of edges of each segment and counts the vertices. */
+static Status count_edges(const curves::Curves& curves, const Network& network, size_t nodes,
+                          double spacing, CurveVertices* vertices) {
+  TRY(least_edges(network.segment.span(), &vertices->edges));
+  TRY(vertices->first.resize(network.segment.size()));
+  uint64_t next = nodes;
+  for (size_t s = 0; s < network.segment.size(); ++s) {
+    const double length = segment_length(curves, network.segment[s]);
+    vertices->length += length;
+    const double wished = length / spacing + 0.5;
+    if (!(wished < 1e9)) return fail(Code::too_large, "the spacing is too small for the network");
+    if (wished > vertices->edges[s]) vertices->edges[s] = static_cast<uint32_t>(wished);
+    vertices->first[s] = static_cast<uint32_t>(next);
+    next += vertices->edges[s] - 1 + (network.segment[s].from == k_none);
+    if (next > 0x7fffffff) return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  TRY(vertices->position.resize(static_cast<size_t>(next)));
+  TRY(vertices->normal.resize(static_cast<size_t>(next)));
+  return vertices->curve.assign(static_cast<size_t>(next), k_none);
+}
+
+uint32_t segment_vertex(const Network& network, const CurveVertices& vertices, uint32_t s,
+                        uint32_t k) {
+  const Segment& segment = network.segment[s];
+  if (segment.from == k_none) return vertices.first[s] + k % vertices.edges[s];
+  if (k == 0) return segment.from;
+  return k == vertices.edges[s] ? segment.to : vertices.first[s] + k - 1;
+}
+
+static Status place_vertices(const curves::Curves& curves, const Network& network, uint32_t s,
+                             CurveVertices* vertices) {
+  const Segment& segment = network.segment[s];
+  const curves::Curve curve = curves[segment.curve];
+  const double from = curve.arc[segment.first_knot];
+  const double length = curve.arc[segment.last_knot] - from;
+  const uint32_t edges = vertices->edges[s];
+  for (uint32_t k = 0; k <= edges; ++k) {
+    if (k % 4096 == 4095) TRY(vertices->position.context().checkpoint());
+    const uint32_t v = segment_vertex(network, *vertices, s, k);
+    if (vertices->curve[v] > segment.curve) vertices->curve[v] = segment.curve;
+    if (segment.from != k_none && (k == 0 || k == edges)) continue;  /* nodes are there already */
+    const double part = static_cast<double>(k) / static_cast<double>(edges);
+    const curves::CurvePoint point =
+        point_at(curve, segment.first_knot, segment.last_knot, from + part * length);
+    if (has_normals(curve) && !(dot(point.normal, point.normal) > 0.5)) {
+      return fail_at_sample(Code::inconsistent_normals,
+                            "the normals of neighbouring samples cancel out", segment.curve,
+                            curve.sample[segment.first_knot]);
+    }
+    if (k == edges) break;  /* the closed curve's first vertex again */
+    vertices->position[v] = point.position;
+    vertices->normal[v] = point.normal;
+  }
+  return {};
+}
+
+Status resample(const curves::Curves& curves, Span<const Node> nodes, const Network& network,
+                double spacing, CurveVertices* vertices) {
+  vertices->nodes = static_cast<uint32_t>(nodes.size());
+  TRY(count_edges(curves, network, nodes.size(), spacing, vertices));
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    vertices->position[i] = nodes[i].position;
+    vertices->normal[i] = nodes[i].normal;
+  }
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    TRY(place_vertices(curves, network, s, vertices));
+    if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
+  }
+  for (uint32_t c = 0; c < curves.size(); ++c) {  /* points */
+    const curves::Curve curve = curves[c];
+    if (curve.node.size() != 1 || curve.node[0] >= nodes.size()) continue;
+    uint32_t& of = vertices->curve[curve.node[0]];
+    if (of > c) of = c;
+  }
+  return curves.right.empty() ? Status{} : resample_sides(curves, network, vertices);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/resample.cpp ======== */
+
+/* ======== begin src/network/border.cpp ======== */
+namespace wireskin::network {
+
+/* Where a border begins must not depend on the order or the direction of the curves, or these would */
+/* change the triangulation: at its least point, nodes (whose bits are the caller's) before others. */
+static bool begins_before(const CurveVertices& vertices, uint32_t a, uint32_t b) {
+  if ((a < vertices.nodes) != (b < vertices.nodes)) return a < vertices.nodes;
+  const Vec3 &p = vertices.position[a], &q = vertices.position[b];
+  if (p.x != q.x) return p.x < q.x;
+  return p.y != q.y ? p.y < q.y : p.z < q.z;
+}
+
+static Status append_loop(const Network& network, const CurveVertices& vertices, uint32_t loop,
+                          Border* border) {
+  const Span<const uint32_t> half = network.loop[loop];
+  Array<uint32_t> vertex(border->vertex.context());
+  Array<Vec3> normal(border->vertex.context());
+  for (size_t i = 0; i < half.size(); ++i) {
+    const uint32_t h = half[i], before = half[i == 0 ? half.size() - 1 : i - 1];
+    const uint32_t s = h / 2, edges = vertices.edges[s];
+    for (uint32_t k = 0; k < edges; ++k) {
+      TRY(vertex.push(segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)));
+      const Vec3 own = left_normal(network, vertices, h, k);
+      if (k > 0 || vertices.side_start.empty()) {
+        TRY(normal.push(own));
+      } else {
+        const Vec3 last = left_normal(network, vertices, before, vertices.edges[before / 2]);
+        TRY(normal.push(unit(last + own)));
+      }
+    }
+  }
+  const size_t n = vertex.size();
+  size_t first = 0;
+  for (size_t i = 1; i < n; ++i) {
+    if (begins_before(vertices, vertex[i], vertex[first])) first = i;
+  }
+  for (size_t i = 0; i < n; ++i) {
+    const size_t k = (first + i) % n;
+    TRY(border->vertex.push(vertex[k]));
+    TRY(border->position.push(vertices.position[vertex[k]]));
+    TRY(border->normal.push(normal[k]));
+  }
+  return border->start.push(static_cast<uint32_t>(border->vertex.size()));
+}
+
+Status border_of_patch(const Network& network, const CurveVertices& vertices, uint32_t patch,
+                       Border* border) {
+  border->start.clear();
+  border->vertex.clear();
+  border->position.clear();
+  border->normal.clear();
+  TRY(border->start.push(0));
+  for (uint32_t l = network.patch_start[patch]; l < network.patch_start[patch + 1]; ++l) {
+    TRY(append_loop(network, vertices, l, border));
+  }
+  return {};
+}
+
+uint32_t next_on_border(const Border& border, uint32_t loop, uint32_t i) {
+  return i + 1 == border.start[loop + 1] ? border.start[loop] : i + 1;
+}
+
+Vec3 vector_area(const Border& border) {
+  Vec3 area;
+  const Vec3 base = border.position[0];
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const Vec3& next = border.position[next_on_border(border, l, i)];
+      area += cross(border.position[i] - base, next - base);
+    }
+  }
+  return area;
+}
+
+Vec3 mean_normal(const Border& border) {
+  Vec3 sum;
+  double known = 0.0;
+  for (const Vec3& n : border.normal) {
+    sum += n;
+    known += n != Vec3{} ? 1.0 : 0.0;
+  }
+  return known > 0.0 ? (1.0 / known) * sum : Vec3{};
+}
+
+double border_length(const Border& border) {
+  double sum = 0.0;
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      sum += length(border.position[next_on_border(border, l, i)] - border.position[i]);
+    }
+  }
+  return sum;
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/border.cpp ======== */
+
+/* ======== begin src/network/side_normals.cpp ======== */
+namespace wireskin::network {
+
+/* The normals of one side of segment s, `curve` being its curve as seen from there. */
+static Status fill_side(const curves::Curve& curve, const Segment& segment, Span<Vec3> side) {
+  const size_t edges = side.size() - 1;
+  const double from = curve.arc[segment.first_knot];
+  const double length = curve.arc[segment.last_knot] - from;
+  side[0] = curve.normal.value[segment.first_knot];
+  side[edges] = curve.normal.value[segment.last_knot];
+  if (!has_normals(curve)) {
+    for (Vec3& n : side) n = Vec3{};
+    return {};
+  }
+  for (size_t k = 1; k < edges; ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(edges);
+    side[k] = point_at(curve, segment.first_knot, segment.last_knot, from + part * length).normal;
+    if (dot(side[k], side[k]) > 0.5) continue;
+    return fail_at_sample(Code::inconsistent_normals,
+                          "the normals of neighbouring samples cancel out", segment.curve,
+                          curve.sample[segment.first_knot]);
+  }
+  return {};
+}
+
+Status resample_sides(const curves::Curves& curves, const Network& network,
+                      CurveVertices* vertices) {
+  const size_t segments = network.segment.size();
+  TRY(vertices->side_start.resize(segments + 1));
+  uint32_t total = 0;
+  for (size_t s = 0; s < segments; ++s) {
+    vertices->side_start[s] = total;
+    total += vertices->edges[s] + 1;
+  }
+  vertices->side_start[segments] = total;
+  TRY(vertices->left.resize(total));
+  TRY(vertices->right.resize(total));
+  for (uint32_t s = 0; s < segments; ++s) {
+    const Segment& segment = network.segment[s];
+    const size_t first = vertices->side_start[s], count = size_t{vertices->edges[s]} + 1;
+    const Span<Vec3> left = vertices->left.span().part(first, count);
+    const Span<Vec3> right = vertices->right.span().part(first, count);
+    TRY(fill_side(curves[segment.curve], segment, left));
+    TRY(fill_side(seen_from_right(curves, segment.curve), segment, right));
+    for (uint32_t k = 0; k < count; ++k) {
+      const uint32_t v = segment_vertex(network, *vertices, s, k);
+      const bool inside = segment.from == k_none || (k > 0 && k + 1 < count);
+      if (inside && left[k] != right[k]) vertices->normal[v] = unit(left[k] + right[k]);
+    }
+    TRY(vertices->left.context().checkpoint());
+  }
+  return {};
+}
+
+Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t h, uint32_t k) {
+  const uint32_t s = h / 2, edges = vertices.edges[s];
+  if (vertices.side_start.empty()) {
+    return vertices.normal[segment_vertex(network, vertices, s, h % 2 == 0 ? k : edges - k)];
+  }
+  const uint32_t first = vertices.side_start[s];
+  return h % 2 == 0 ? vertices.left[first + k] : vertices.right[first + edges - k];
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/side_normals.cpp ======== */
+
+/* ======== begin src/network/border_check.cpp ======== */
+namespace wireskin::network {
+
+static double clamp_to_unit(double t) {
+  return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+}
+
+/* The square of the distance between the segments a b and c d. */
+static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = d - c, w = a - c;
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const double determinant = uu * vv - uv * uv;
+  const double s = determinant > 0.0 ? clamp_to_unit((uv * vw - vv * uw) / determinant) : 0.0;
+  const double t = clamp_to_unit((uv * s + vw) / vv);  /* nearest on c d to that point of a b */
+  const double again = clamp_to_unit((uv * t - uw) / uu);
+  const Vec3 gap = (a + again * u) - (c + t * v);
+  return dot(gap, gap);
+}
+
+/* Fails where two edges without a common end touch, to within a millionth of the border's length. */
+static Status find_crossing(const Border& border, double perimeter) {
+  constexpr double k_touch = 1e-6;
+  const Span<const Vec3> position = border.position.span();
+  Array<uint32_t> next(border.vertex.context());
+  TRY(next.resize(border.size()));
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      next[i] = next_on_border(border, l, i);
+    }
+  }
+  for (uint32_t i = 0; i < border.size(); ++i) {
+    const Vec3 &a = position[i], &b = position[next[i]];
+    const double own = length(b - a);
+    for (uint32_t j = i + 1; j < border.size(); ++j) {
+      if (j == next[i] || next[j] == i) continue;
+      const Vec3 &c = position[j], &d = position[next[j]];
+      if (length(c - a) > own + length(d - c) + k_touch * perimeter) continue;
+      if (segment_distance2(a, b, c, d) <= k_touch * perimeter * (k_touch * perimeter)) {
+        return fail(Code::patch_folded, "the border of the patch crosses itself");
+      }
+    }
+    if (i % 64 == 63) TRY(next.context().checkpoint());
+  }
+  return {};
+}
+
+Status check_border(const Border& border) {
+  const Vec3 area = 0.5 * vector_area(border);
+  const Vec3 normal = mean_normal(border);
+  const double perimeter = border_length(border);
+  /* A disc of this perimeter has the area perimeter^2 / (4 pi); a fifth of that is no accident. The */
+  /* larger part of a sphere runs clockwise, too, but its normals lean outwards. */
+  constexpr double k_least_cosine = -0.55;
+  const double clear_area = perimeter * perimeter / 60.0;
+  if (length(area) > clear_area && dot(unit(area), normal) < k_least_cosine) {
+    return fail(
+        Code::patch_without_plane,
+        "the border runs clockwise round its normals: where a surface ends, its curves must be "
+        "tagged as boundary");
+  }
+  TRY(find_crossing(border, perimeter));
+  /* One turn is what a border that passes over itself asks for; a sound surface takes it up, though */
+  /* not all of the normals. */
+  int32_t linked = 0;
+  TRY(linking_number(border, &linked));
+  if (linked >= -1 && linked <= 1) return {};
+  return fail(Code::patch_folded,
+              "no two-sided surface without crossings has this border with these normals: it is "
+              "one-sided, knotted, or a curve is missing");
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/border_check.cpp ======== */
+
+/* ======== begin src/network/linking.cpp ======== */
+namespace wireskin::network {
+
+/* An edge of the border with the normal that it has, across it; `next`: the edge behind it. */
+namespace {
+
+struct LinkedEdge {
+  Vec3 from, to, tangent, normal;
+  uint32_t next;
+};
+
+}  /* namespace */
+
+/* The angle of the corner between the planes x y and y z of a spherical quadrilateral, signed. */
+static double arc_sine(double s) {
+  const double clamped = s < -1.0 ? -1.0 : s > 1.0 ? 1.0 : s;
+  return arc_tangent(clamped, std::sqrt((1.0 - clamped) * (1.0 + clamped)));
+}
+
+/* The signed solid angle over 4 pi from which two edges are seen to cross. */
+static double crossing_share(const LinkedEdge& e, const LinkedEdge& f) {
+  const Vec3 ac = f.from - e.from, ad = f.to - e.from, bc = f.from - e.to, bd = f.to - e.to;
+  const double side = dot(cross(f.to - f.from, e.to - e.from), ac);
+  if (side == 0.0) return 0.0;
+  const Vec3 n1 = unit(cross(ac, ad)), n2 = unit(cross(ad, bd));
+  const Vec3 n3 = unit(cross(bd, bc)), n4 = unit(cross(bc, ac));
+  const double angle =
+      arc_sine(dot(n1, n2)) + arc_sine(dot(n2, n3)) + arc_sine(dot(n3, n4)) + arc_sine(dot(n4, n1));
+  return (side > 0.0 ? angle : -angle) / (4.0 * k_pi);
+}
+
+/* How far the normals turn about the curve from an edge to the next one, in radians, against the */
+/* normal carried over by the least rotation. */
+static double twist_angle(const LinkedEdge& e, const LinkedEdge& f) {
+  const Vec3 axis = cross(e.tangent, f.tangent);
+  const double cosine = dot(e.tangent, f.tangent);
+  const Vec3 carried =
+      cosine * e.normal + cross(axis, e.normal) + (dot(axis, e.normal) / (1.0 + cosine)) * axis;
+  return arc_tangent(dot(cross(carried, f.normal), f.tangent), dot(carried, f.normal));
+}
+
+static Status take_edges(const Border& border, Array<LinkedEdge>* edges, bool* known) {
+  constexpr double k_least_sine = 0.05, k_turns_back = -0.98;
+  *known = true;
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const uint32_t j = next_on_border(border, l, i);
+      const Vec3 tangent = unit(border.position[j] - border.position[i]);
+      const Vec3 mean = reject(border.normal[i] + border.normal[j], tangent);
+      *known = *known && border.normal[i] != Vec3{} && length(mean) > k_least_sine;
+      TRY(edges->push({border.position[i], border.position[j], tangent, unit(mean), j}));
+    }
+  }
+  for (const LinkedEdge& e : *edges) {
+    *known = *known && dot(e.tangent, (*edges)[e.next].tangent) > k_turns_back;
+  }
+  return {};
+}
+
+Status linking_number(const Border& border, int32_t* number) {
+  constexpr double k_near = 0.2;
+  Context& context = border.vertex.context();
+  Array<LinkedEdge> edges(context);
+  bool known = false;
+  *number = 0;
+  TRY(take_edges(border, &edges, &known));
+  if (!known) return {};
+  double sum = 0.0;
+  for (uint32_t i = 0; i < edges.size(); ++i) {
+    for (uint32_t j = i + 1; j < edges.size(); ++j) {
+      if (edges[i].next == j || edges[j].next == i) continue;
+      sum += 2.0 * crossing_share(edges[i], edges[j]);
+    }
+    sum += twist_angle(edges[i], edges[edges[i].next]) / (2.0 * k_pi);
+    if (i % 64 == 63) TRY(context.checkpoint());
+  }
+  const int32_t nearest = static_cast<int32_t>(sum < 0.0 ? sum - 0.5 : sum + 0.5);
+  if (std::fabs(sum - nearest) < k_near) *number = nearest;
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/linking.cpp ======== */
+
+/* ======== begin src/network/patch_mesh.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+/* An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a */
+/* curve. */
+struct Chord {
+  uint32_t a, b;
+  uint32_t patch;
+};
+
+/* The corners of a triangle, in space or in its patch's plane (z = 0; the same vertex then has */
+/* another place in each patch). */
+struct TriangleCorners {
+  uint32_t triangle;
+  Vec3 at[3];
+};
+
+/* What is gathered over all patches; `cornered`: the triangles that have chords, ascending. */
+struct Builder {
+  PatchMesh* mesh;
+  Array<TriangleCorners> cornered;
+  Array<Chord> chord;
+  Array<uint32_t> patch_start;  /* first triangle of each patch, before chords are split */
+  Array<uint8_t> raised;        /* of each patch */
+
+  explicit Builder(Context& context, PatchMesh* result)
+      : mesh(result), cornered(context), chord(context), patch_start(context), raised(context) {}
+};
+
+/* Memory for one patch, reused: the border, the vertices of the patch that are on curves (those of */
+/* the loops, then inner ones), the mesh either way, and what both come to: triangles over these */
+/* vertices and free ones behind them, the corners' places for the metric, and where the free */
+/* vertices may start in space. */
+struct PatchScratch {
+  Border border;
+  Array<uint32_t> local;         /* of each curve vertex, k_none between patches */
+  Array<uint32_t> vertex;        /* of each local one the curve vertex */
+  Array<uint32_t> loop;          /* local, in the order of the border */
+  Array<uint32_t> inner_edge;    /* two local ones each */
+  Array<Chord> curve_edge;       /* local, a < b, sorted: loops' and inner edges */
+  uint32_t isolated = 0;         /* so many of the last local vertices are points */
+  Array<Vec3> position, normal;  /* of the local vertices */
+  Array<Vec2> flat;
+  planar::PolygonMesh planar;
+  SpaceMesh spatial;
+  Array<Vec3> place;
+  Array<Vec3> inner;
+
+  explicit PatchScratch(Context& context)
+      : border(context),
+        local(context),
+        vertex(context),
+        loop(context),
+        inner_edge(context),
+        curve_edge(context),
+        position(context),
+        normal(context),
+        flat(context),
+        planar(context),
+        spatial(context),
+        place(context),
+        inner(context) {}
+};
+
+}  /* namespace */
+
+static bool may_be_left_out(const Status& status) {
+  return status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
+         status.code == Code::patch_several_loops;
+}
+
+/* Adds the place to what went wrong with a patch: its number and a curve of its border. */
+static Status at_patch(Status status, const Network& network, uint32_t patch) {
+  if (!may_be_left_out(status)) return status;
+  status.place.patch = patch;
+  if (status.place.curve == k_none) {
+    status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
+  }
+  return status;
+}
+
+static bool before(const Chord& x, const Chord& y) {
+  if (x.a != y.a) return x.a < y.a;
+  return x.b != y.b ? x.b < y.b : x.patch < y.patch;
+}
+
+static Status add_vertex(uint32_t v, const CurveVertices& vertices, const Vec3& normal,
+                         PatchScratch* scratch, uint32_t* local) {
+  if (scratch->local[v] == k_none) {
+    scratch->local[v] = static_cast<uint32_t>(scratch->vertex.size());
+    TRY(scratch->vertex.push(v));
+    TRY(scratch->position.push(vertices.position[v]));
+    TRY(scratch->normal.push(normal));
+  }
+  *local = scratch->local[v];
+  return {};
+}
+
+static Status add_edge(uint32_t a, uint32_t b, PatchScratch* scratch) {
+  return scratch->curve_edge.push(a < b ? Chord{a, b, k_none} : Chord{b, a, k_none});
+}
+
+/* Numbers the curve vertices of a patch and lists its edges. */
+static Status take_domain(const Network& network, const CurveVertices& vertices, uint32_t patch,
+                          PatchScratch* scratch) {
+  TRY(border_of_patch(network, vertices, patch, &scratch->border));
+  const Border& border = scratch->border;
+  for (uint32_t v : scratch->vertex) scratch->local[v] = k_none;
+  scratch->vertex.clear();
+  scratch->position.clear();
+  scratch->normal.clear();
+  scratch->inner_edge.clear();
+  scratch->curve_edge.clear();
+  TRY(scratch->loop.resize(border.size()));
+  for (uint32_t i = 0; i < border.size(); ++i) {
+    TRY(add_vertex(border.vertex[i], vertices, border.normal[i], scratch, &scratch->loop[i]));
+  }
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      TRY(add_edge(scratch->loop[i], scratch->loop[next_on_border(border, l, i)], scratch));
+    }
+  }
+  for (uint32_t s : network.inner[patch]) {
+    uint32_t last = k_none, local = k_none;
+    for (uint32_t k = 0; k <= vertices.edges[s]; ++k, last = local) {
+      const uint32_t v = segment_vertex(network, vertices, s, k);
+      TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
+      if (k == 0) continue;
+      TRY(scratch->inner_edge.push(last));
+      TRY(scratch->inner_edge.push(local));
+      TRY(add_edge(last, local, scratch));
+    }
+  }
+  scratch->isolated = static_cast<uint32_t>(network.point[patch].size());
+  for (uint32_t v : network.point[patch]) {
+    uint32_t local = k_none;
+    TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
+  }
+  sort(scratch->curve_edge.span(), before);
+  return {};
+}
+
+static bool find_edge(Span<const Chord> sorted, uint32_t a, uint32_t b) {
+  const Chord edge = {a, b, k_none};
+  size_t low = 0, high = sorted.size();
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (before(sorted[middle], edge)) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low < sorted.size() && sorted[low].a == a && sorted[low].b == b;
+}
+
+static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
+  return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
+}
+
+/* Room for `more` elements; grows as push() does. */
+template <typename T>
+static Status reserve_more(Array<T>* array, size_t more) {
+  const size_t room = array->capacity_bytes() / sizeof(T), needed = array->size() + more;
+  if (needed <= room) return {};
+  return array->reserve(needed < room + room / 2 ? room + room / 2 : needed);
+}
+
+/* Notes the chords of triangle `t`, whose vertices among the patch's are `corner`, and its corners */
+/* if it has any. */
+static Status note_chords(const PatchScratch& scratch, const uint32_t* corner, uint32_t t,
+                          uint32_t patch, Builder* builder) {
+  bool any = false;
+  const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
+  for (int k = 0; k < 3; ++k) {
+    const uint32_t a = corner[k], b = corner[(k + 1) % 3];
+    if (a >= n || b >= n || is_curve_edge(scratch, a, b)) continue;
+    any = true;
+    /* Each edge inside is met once in each direction; the ascending one is noted. */
+    const uint32_t from = scratch.vertex[a], to = scratch.vertex[b];
+    if (from < to) TRY(builder->chord.push({from, to, patch}));
+  }
+  if (!any) return {};
+  const Span<const Vec3> place = scratch.place.span();
+  return builder->cornered.push({t, {place[corner[0]], place[corner[1]], place[corner[2]]}});
+}
+
+static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
+                           uint32_t patch, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
+  const size_t first = mesh->patch.size(), more = triangle.size() / 3;
+  TRY(reserve_more(&mesh->triangle, triangle.size()));
+  TRY(reserve_more(&mesh->patch, more));
+  TRY(reserve_more(&mesh->shape, more));
+  TRY(reserve_more(&mesh->start, scratch.inner.size()));
+  TRY(reserve_more(&mesh->placed, scratch.inner.size()));
+  for (size_t t = 0; t < more; ++t) {
+    const uint32_t* corner = &triangle[3 * t];
+    const auto global = [&](uint32_t v) {
+      return v < n ? scratch.vertex[v] : mesh->vertices + (v - n);
+    };
+    for (int k = 0; k < 3; ++k) mesh->triangle.push_reserved(global(corner[k]));
+    mesh->patch.push_reserved(patch);
+    mesh->shape.push_reserved(mesh::triangle_shape(
+        scratch.place[corner[0]], scratch.place[corner[1]], scratch.place[corner[2]]));
+    TRY(note_chords(scratch, corner, static_cast<uint32_t>(first + t), patch, builder));
+  }
+  for (const Vec3& p : scratch.inner) {
+    mesh->start.push_reserved(p);
+    mesh->placed.push_reserved(scratch.spatial.raised);
+  }
+  const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
+  if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
+    return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  mesh->vertices = static_cast<uint32_t>(vertices);
+  return {};
+}
+
+/* Whether the triangles lie on the left of every edge of the loops: holes run clockwise, the outer */
+/* loop does not. */
+static bool on_the_left(const PatchScratch& scratch, Array<Chord>* directed) {
+  sort(directed->span(), before);
+  for (size_t h = 0; h < scratch.planar.triangles.size(); ++h) {
+    const uint32_t a = scratch.planar.triangles[h];
+    const uint32_t b = scratch.planar.triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    if (find_edge(directed->span(), b, a)) return false;
+  }
+  return true;
+}
+
+static Status mesh_flat(double spacing, PatchScratch* scratch) {
+  Context& context = scratch->vertex.context();
+  const Border& border = scratch->border;
+  round_to_grid(scratch->flat.span(), &spacing);
+  if (border.loops() == 1 && border.size() == scratch->vertex.size()) {
+    return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
+  }
+  Array<uint32_t> edges(context);
+  Array<Chord> directed(context);
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const uint32_t a = scratch->loop[i], b = scratch->loop[next_on_border(border, l, i)];
+      TRY(edges.push(a));
+      TRY(edges.push(b));
+      TRY(directed.push({a, b, k_none}));
+    }
+  }
+  const planar::Region region = {scratch->flat.span(), edges.span(), scratch->inner_edge.span(),
+                                 false};
+  Status status = planar::mesh_region(context, region, spacing, &scratch->planar);
+  const bool outside = status.code == Code::bad_argument || status.code == Code::open_network;
+  if (outside) status = fail(Code::patch_folded, "a curve inside the patch leaves it");
+  status.place = {};  /* its vertices are ours */
+  TRY(status);
+  if (!on_the_left(*scratch, &directed)) {
+    return fail(Code::patch_without_plane, "a loop of the patch runs the wrong way round");
+  }
+  return {};
+}
+
+/* `least_facing` as in mesh_patches. */
+static Status mesh_in_plane(const Plane& plane, double spacing, double least_facing,
+                            PatchScratch* scratch) {
+  const size_t n = scratch->vertex.size();
+  TRY(scratch->flat.resize(n));
+  double facing = 0.0;
+  size_t known = 0;
+  for (size_t i = 0; i < n; ++i) scratch->flat[i] = plane.project(scratch->position[i]);
+  for (const Vec3& normal : scratch->border.normal) {
+    facing += dot(normal, plane.normal);
+    known += normal != Vec3{};
+  }
+  if (known > 0 && facing < least_facing * static_cast<double>(known)) {
+    return fail(Code::patch_without_plane, "the plane of the patch sees too much of it edge-on");
+  }
+  TRY(mesh_flat(spacing, scratch));
+  const Array<Vec2>& points = scratch->planar.points;
+  TRY(scratch->place.resize(points.size()));
+  TRY(scratch->inner.resize(points.size() - n));
+  for (size_t i = 0; i < points.size(); ++i) {
+    scratch->place[i] = {points[i].x, points[i].y, 0.0};
+    if (i >= n) scratch->inner[i - n] = plane.lift(points[i]);
+  }
+  return {};
+}
+
+/* Lets the mesh in space pass through the curves and points inside the patch. */
+static Status inlay_patch(double spacing, PatchScratch* scratch) {
+  Context& context = scratch->vertex.context();
+  const Border& border = scratch->border;
+  const uint32_t rim = border.size(), n = static_cast<uint32_t>(scratch->vertex.size());
+  Array<Chord> lines(context);
+  Array<uint32_t> edges(context);
+  for (size_t e = 0; e < scratch->inner_edge.size(); e += 2) {
+    const uint32_t a = scratch->inner_edge[e], b = scratch->inner_edge[e + 1];
+    TRY(lines.push(a < b ? Chord{a, b, k_none} : Chord{b, a, k_none}));
+  }
+  sort(lines.span(), before);
+  for (const Chord& line : lines) {
+    TRY(edges.push(line.a));
+    TRY(edges.push(line.b));
+  }
+  const mesh::Inlay inlay = {scratch->position.span().part(rim, n - rim), edges.span()};
+  TRY(mesh::inlay_curves(context, border.start.span(), inlay, spacing, &scratch->spatial.position,
+                         &scratch->spatial.triangle));
+  if (has_needles(scratch->spatial)) {
+    return fail(Code::patch_folded, "curves inside the patch lie too near each other");
+  }
+  if (!scratch->spatial.raised || scratch->spatial.band) return {};
+  return raise_again(border, {n, edges.span()}, spacing, &scratch->spatial);
+}
+
+/* Names the curve of the local vertex that a failure speaks of. */
+static Status at_local_vertex(Status status, const CurveVertices& vertices,
+                              const PatchScratch& scratch) {
+  const uint32_t v = status.place.vertex;
+  status.place.vertex = k_none;
+  if (v < scratch.vertex.size()) status.place.curve = vertices.curve[scratch.vertex[v]];
+  return status;
+}
+
+static Status mesh_in_space(const CurveVertices& vertices, double spacing, PatchScratch* scratch) {
+  const Border& border = scratch->border;
+  const uint32_t n = static_cast<uint32_t>(scratch->vertex.size()), rim = border.size();
+  for (uint32_t i = 0; i < rim; ++i) {
+    if (scratch->loop[i] == i) continue;
+    return fail(Code::patch_folded,
+                "no plane shows the patch without folds, and its border passes a point twice");
+  }
+  TRY(mesh_border_in_space(border, spacing, &scratch->spatial));
+  if (n != rim) TRY(at_local_vertex(inlay_patch(spacing, scratch), vertices, *scratch));
+  TRY(scratch->place.copy(scratch->spatial.position.span()));
+  return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
+}
+
+/* Points in line within rounding have a triangle in the plane, where they are rounded again, and */
+/* none in space. The bound is that of every mesh, with room for splits of the chords. */
+static Status check_areas(const PatchScratch& scratch, Span<const uint32_t> triangle) {
+  constexpr double k_least_area = 16.0 * mesh::k_least_height;
+  const size_t n = scratch.position.size();
+  const auto at = [&](uint32_t v) { return v < n ? scratch.position[v] : scratch.inner[v - n]; };
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    const Vec3 a = at(triangle[t + 1]) - at(triangle[t]), b = at(triangle[t + 2]) - at(triangle[t]);
+    const Vec3 c = b - a;
+    const double longest2 = larger(dot(a, a), larger(dot(b, b), dot(c, c)));
+    if (!(length(cross(a, b)) > k_least_area * longest2)) {
+      return fail(Code::patch_folded, "the border of the patch encloses nothing");
+    }
+  }
+  return {};
+}
+
+static bool may_be_meshed_otherwise(const Status& status) {
+  return status.code == Code::patch_without_plane || status.code == Code::patch_folded;
+}
+
+static Status mesh_patch(const Network& network, const CurveVertices& vertices, double least_facing,
+                         uint32_t patch, PatchScratch* scratch, Builder* builder) {
+  TRY(take_domain(network, vertices, patch, scratch));
+  const Border& border = scratch->border;
+  const double spacing = border_length(border) / static_cast<double>(border.size());
+  Plane plane;
+  scratch->spatial.raised = false;
+  Status status = fit_plane(border, &plane);
+  if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
+  if (status.ok()) status = check_areas(*scratch, scratch->planar.triangles.span());
+  if (status.ok()) {
+    TRY(builder->mesh->way.push(PatchWay::plane));
+    return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
+  }
+  if (!may_be_meshed_otherwise(status)) return status;
+  TRY(check_border(border));
+  TRY(mesh_in_space(vertices, spacing, scratch));
+  TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
+  TRY(builder->mesh->way.push(PatchWay::minimal_area));
+  return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
+}
+
+static TriangleCorners* corners_of(uint32_t triangle, Builder* builder) {
+  size_t first = 0, end = builder->cornered.size();
+  while (first + 1 < end) {
+    const size_t middle = first + (end - first) / 2;
+    (builder->cornered[middle].triangle <= triangle ? first : end) = middle;
+  }
+  WIRESKIN_ASSERT(first < end && builder->cornered[first].triangle == triangle);
+  return &builder->cornered[first];
+}
+
+static mesh::TriangleShape shape_of(const TriangleCorners& corners) {
+  return mesh::triangle_shape(corners.at[0], corners.at[1], corners.at[2]);
+}
+
+/* Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the */
+/* triangle keeps one half, a new triangle takes the other. */
+static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
+  TriangleCorners* old = corners_of(h / 3, builder);
+  const Vec3 middle = 0.5 * (old->at[h % 3] + old->at[next % 3]);
+  const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
+  const TriangleCorners fresh = {static_cast<uint32_t>(mesh->patch.size()),
+                                 {middle, old->at[next % 3], old->at[previous % 3]}};
+  mesh->triangle[next] = m;
+  old->at[next % 3] = middle;
+  mesh->shape[h / 3] = shape_of(*old);
+  for (uint32_t v : vertex) TRY(mesh->triangle.push(v));
+  TRY(mesh->shape.push(shape_of(fresh)));
+  TRY(mesh->patch.push(mesh->patch[h / 3]));
+  return builder->cornered.push(fresh);
+}
+
+/* Splits the triangles [first, end) of the chord's patch that have the chord. */
+static Status split_triangles(const Chord& chord, uint32_t first, uint32_t end, uint32_t middle,
+                              Builder* builder) {
+  const PatchMesh& mesh = *builder->mesh;
+  for (uint32_t h = 3 * first; h < 3 * end; ++h) {
+    const uint32_t a = mesh.triangle[h], b = mesh.triangle[mesh::next_half_edge(h)];
+    const bool here = (a == chord.a && b == chord.b) || (a == chord.b && b == chord.a);
+    if (here && mesh.patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, builder));
+  }
+  return {};
+}
+
+/* A patch's triangles are those it began with and some of those that came from earlier splits. */
+static Status split_chord(const Chord& chord, Builder* builder) {
+  PatchMesh* mesh = builder->mesh;
+  if (mesh->triangle.size() > 0x7fffffff) {
+    return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  const uint32_t middle = mesh->vertices++;
+  TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
+  TRY(mesh->placed.push(builder->raised[chord.patch]));
+  const uint32_t* own = &builder->patch_start[chord.patch];
+  const uint32_t first_split = builder->patch_start.back();
+  const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
+  TRY(split_triangles(chord, own[0], own[1], middle, builder));
+  TRY(split_triangles(chord, first_split, triangles, middle, builder));
+  return mesh->triangle.context().checkpoint();
+}
+
+/* Splits every chord that stands in two patches or beside a curve's edge. */
+static Status split_shared_chords(const Network& network, const CurveVertices& vertices,
+                                  Builder* builder) {
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+      const uint32_t a = segment_vertex(network, vertices, s, k);
+      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
+      TRY(builder->chord.push({a < b ? a : b, a < b ? b : a, k_none}));
+    }
+  }
+  sort(builder->chord.span(), before);
+  const Span<const Chord> chords = builder->chord.span();
+  for (size_t i = 0; i < chords.size(); ++i) {
+    const auto same = [&](size_t k) {
+      return k < chords.size() && chords[k].a == chords[i].a && chords[k].b == chords[i].b;
+    };
+    const bool shared = same(i + 1) || (i > 0 && same(i - 1));
+    if (shared && chords[i].patch != k_none) TRY(split_chord(chords[i], builder));
+  }
+  return {};
+}
+
+/* Why the patch is not to be made, its number included. */
+static Status fault_of_patch(const Network& network, uint32_t patch, Span<const Status> faults) {
+  Status status;
+  for (uint32_t h : network.cycle(patch)) {
+    if (status.ok() && !faults.empty()) status = faults[h / 2];
+  }
+  for (uint32_t s : network.inner[patch]) {
+    if (status.ok() && !faults.empty()) status = faults[s];
+  }
+  status.place.patch = patch;
+  return status;
+}
+
+Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
+                    bool partial, PatchMesh* mesh, Span<const Status> faults) {
+  Context& context = mesh->triangle.context();
+  Builder builder(context, mesh);
+  PatchScratch scratch(context);
+  TRY(scratch.local.assign(vertices.position.size(), k_none));
+  mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
+  TRY(mesh->start.copy(vertices.position.span()));
+  TRY(mesh->placed.assign(mesh->vertices, 0));
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+    Status status = fault_of_patch(network, p, faults);
+    const bool known = !status.ok();
+    scratch.spatial.raised = false;
+    if (!known) status = mesh_patch(network, vertices, least_facing, p, &scratch, &builder);
+    if (!known) status = at_patch(status, network, p);
+    TRY(mesh->status.push(status));
+    TRY(builder.raised.push(scratch.spatial.raised));
+    if (!status.ok() && !(partial && (known || may_be_left_out(status)))) return status;
+    if (!status.ok()) TRY(mesh->way.push(PatchWay::plane));
+    TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
+  }
+  TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+  if (mesh->patch.empty() && !mesh->status.empty()) return mesh->status[0];
+  return split_shared_chords(network, vertices, &builder);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_mesh.cpp ======== */
+
+/* ======== begin src/network/crease.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+/* Half-edges of the mesh by the vertex that they leave. */
+struct Corners {
+  Span<const uint32_t> triangle;
+  Array<uint32_t> start, corner;
+
+  Corners(Context& context, Span<const uint32_t> t)
+      : triangle(t), start(context), corner(context) {}
+
+  uint32_t half_edge(uint32_t from, uint32_t to) const {
+    for (uint32_t k = start[from]; k < start[from + 1]; ++k) {
+      if (triangle[mesh::next_half_edge(corner[k])] == to) return corner[k];
+    }
+    return k_none;
+  }
+};
+
+}  /* namespace */
+
+/* Calls visit(side, segment, entry, next entry, half-edge) for both sides of every edge of the */
+/* curves that has a triangle there: the normals of `side` at the half-edge's two ends are its */
+/* entries. */
+template <typename Visit>
+static void for_curve_sides(const Network& network, const CurveVertices& vertices,
+                            const Corners& corners, const Visit& visit) {
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    const uint32_t first = vertices.side_start[s];
+    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+      const uint32_t a = segment_vertex(network, vertices, s, k);
+      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
+      const uint32_t left = corners.half_edge(a, b), right = corners.half_edge(b, a);
+      if (left != k_none) visit(s, vertices.left[first + k], vertices.left[first + k + 1], left);
+      if (right != k_none)
+        visit(s, vertices.right[first + k + 1], vertices.right[first + k], right);
+    }
+  }
+}
+
+static Status cut_mesh(const Network& network, const CurveVertices& vertices,
+                       Span<const uint8_t> sharp, const Corners& corners, uint32_t count,
+                       CreasedMesh* creased) {
+  Array<uint8_t> marked(creased->held.context());
+  TRY(marked.assign(corners.triangle.size(), 0));
+  for_curve_sides(network, vertices, corners,
+                  [&](uint32_t s, const Vec3&, const Vec3&, uint32_t h) {
+                    if (sharp[network.segment[s].curve]) marked[h] = 1;
+                  });
+  return mesh::cut_open(count, corners.triangle, marked.span(), &creased->cut);
+}
+
+/* The mean of the normals known in every sector, and whether it opposes one of them. */
+static Status find_sector_normals(const Network& network, const CurveVertices& vertices,
+                                  const Corners& corners, Span<const Node> nodes,
+                                  CreasedMesh* creased) {
+  const Span<Vec3> normal = creased->normal.span();
+  const Span<const uint32_t> triangle = creased->cut.triangle.span();
+  for (Vec3& n : normal) n = Vec3{};
+  for_curve_sides(network, vertices, corners,
+                  [&](uint32_t, const Vec3& here, const Vec3& there, uint32_t h) {
+                    normal[triangle[h]] += here;
+                    normal[triangle[mesh::next_half_edge(h)]] += there;
+                  });
+  for (Vec3& n : normal) n = unit(n);
+  Status status;
+  const auto compare = [&](uint32_t s, const Vec3& n, uint32_t copy) {
+    const uint32_t v = creased->cut.origin[copy];
+    if (n == Vec3{} || dot(n, normal[copy]) > 0.0 || !status.ok()) return;
+    Place place;
+    place.curve = network.segment[s].curve;
+    if (v < nodes.size()) place.node = nodes[v].number;
+    status = fail(Code::inconsistent_normals,
+                  "the normal opposes those of the other curves of this sector of the node", place);
+  };
+  for_curve_sides(network, vertices, corners,
+                  [&](uint32_t s, const Vec3& here, const Vec3& there, uint32_t h) {
+                    compare(s, here, triangle[h]);
+                    compare(s, there, triangle[mesh::next_half_edge(h)]);
+                  });
+  return status;
+}
+
+Status cut_along_creases(const Network& network, const CurveVertices& vertices,
+                         Span<const uint8_t> sharp, Span<const Node> nodes, const PatchMesh& mesh,
+                         Span<const Vec3> position, CreasedMesh* creased) {
+  Context& context = creased->held.context();
+  Corners corners(context, mesh.triangle.span());
+  mesh::Topology topology(context);
+  Array<uint32_t> twins(context);
+  TRY(mesh::find_corners(mesh.vertices, corners.triangle, &corners.start, &corners.corner));
+  TRY(cut_mesh(network, vertices, sharp, corners, mesh.vertices, creased));
+  const uint32_t copies = creased->cut.vertices();
+  TRY(creased->position.resize(copies));
+  TRY(creased->normal.resize(copies));
+  TRY(creased->held.resize(copies));
+  TRY(creased->bare.resize(copies));
+  TRY(find_sector_normals(network, vertices, corners, nodes, creased));
+  for (uint32_t c = 0; c < copies; ++c) {
+    const uint32_t v = creased->cut.origin[c];
+    creased->position[c] = position[v];
+    creased->held[c] = v < mesh.curve_vertices;
+    creased->bare[c] = creased->held[c] && creased->normal[c] == Vec3{};
+  }
+  TRY(mesh::find_twins(copies, creased->cut.triangle.span(), &twins));
+  TRY(mesh::find_topology(copies, creased->cut.triangle.span(), twins.span(), &topology));
+  return creased->on_border.copy(topology.on_border.span());
+}
+
+void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle) {
+  for (size_t c = 0; c < creased.position.size(); ++c) {
+    position[creased.cut.origin[c]] = creased.position[c];
+  }
+  for (size_t h = 0; h < triangle.size(); ++h) {
+    triangle[h] = creased.cut.origin[creased.cut.triangle[h]];
+  }
+}
+
+Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
+                     Span<const uint32_t> patch, const VertexMeasures& measures) {
+  const size_t n = measures.normal.size(), copies = creased.position.size();
+  Array<Vec3> normal(context), given(context);
+  Array<double> curvature(context), count(context);
+  TRY(normal.resize(copies));
+  TRY(count.assign(n, 0.0));
+  const Span<const uint32_t> triangle = creased.cut.triangle.span();
+  mesh::vertex_normals(creased.position.span(), triangle, normal.span());
+  TRY(mesh::mean_curvature(creased.position.span(), normal.span(), triangle,
+                           creased.on_border.span(), &curvature));
+  TRY(given.assign(copies, Vec3{}));
+  for (size_t v = 0; v < n; ++v) {
+    measures.normal[v] = measures.constraint_normal[v] = Vec3{};
+    measures.mean_curvature[v] = 0.0;
+  }
+  for (size_t c = 0; c < copies; ++c) {
+    const uint32_t v = creased.cut.origin[c];
+    measures.normal[v] += normal[c];
+    measures.mean_curvature[v] += curvature[c];
+    if (creased.held[c] && !creased.bare[c]) given[c] = given_normal[c];
+    measures.constraint_normal[v] += given[c];
+    count[v] += 1.0;
+  }
+  for (size_t v = 0; v < n; ++v) {
+    /* The sides of a knife's edge cancel out: then the first copy's normal stands for both. */
+    const bool cancels = measures.normal[v] == Vec3{};
+    measures.normal[v] = unit(cancels ? normal[v] : measures.normal[v]);
+    measures.mean_curvature[v] /= count[v];
+    measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
+  }
+  *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
+  return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
+                               creased.held.span(), true, measures.dihedral);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/crease.cpp ======== */
+
+/* ======== begin src/network/plane.cpp ======== */
+namespace wireskin::network {
+
+/* The mean of unit normals must be at least this long for its direction to mean anything. */
+static constexpr double k_least_mean_normal = 0.05;
+
+Plane plane_across(const Border& border, const Vec3& normal) {
+  Plane plane;
+  const double share = 1.0 / static_cast<double>(border.size());
+  for (const Vec3& p : border.position) plane.origin += share * p;
+  plane.normal = normal;
+  /* What is left of a vector nearly along the normal is rounding and may point anywhere. */
+  constexpr double k_least_sine = 1e-3;
+  const Vec3 first = border.position[0] - plane.origin;
+  Vec3 axis = reject(first, normal);
+  if (!(dot(axis, axis) > k_least_sine * k_least_sine * dot(first, first))) {
+    axis = reject(std::fabs(normal.x) > 0.8 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, normal);
+  }
+  plane.u = unit(axis);
+  plane.v = cross(normal, plane.u);
+  return plane;
+}
+
+Status fit_plane(const Border& border, Plane* plane) {
+  Vec3 normal;
+  const double share = 1.0 / static_cast<double>(border.size());
+  size_t count = 0;
+  for (const Vec3& n : border.normal) {
+    normal += share * n;
+    count += n != Vec3{};
+  }
+  if (count == 0) {
+    normal = unit(vector_area(border));
+    count = border.size();
+  }
+  if (!(length(normal) >= k_least_mean_normal * share * static_cast<double>(count))) {
+    return fail(Code::patch_without_plane,
+                "the normals of the patch's border cancel out, so it has no plane");
+  }
+  *plane = plane_across(border, unit(normal));
+  return {};
+}
+
+static double nearest_multiple(double x, const Scale& to_grid, const Scale& from_grid) {
+  const double steps = to_grid(x);
+  return from_grid(
+      static_cast<double>(static_cast<int64_t>(steps < 0.0 ? steps - 0.5 : steps + 0.5)));
+}
+
+void round_to_grid(Span<Vec2> polygon, double* spacing) {
+  constexpr int k_bits = 32;
+  double extent = 0.0;
+  for (const Vec2& p : polygon) {
+    const double x = std::fabs(p.x), y = std::fabs(p.y);
+    extent = x > extent ? x : extent;
+    extent = y > extent ? y : extent;
+  }
+  if (!(extent > 0.0) || !(*spacing < 16.0 * extent)) return;
+  const int exponent = binary_exponent(extent);
+  const Scale to_grid(k_bits - exponent), from_grid(exponent - k_bits);
+  for (Vec2& p : polygon) {
+    p = {nearest_multiple(p.x, to_grid, from_grid), nearest_multiple(p.y, to_grid, from_grid)};
+  }
+  const double rounded = nearest_multiple(*spacing, to_grid, from_grid);
+  if (rounded > 0.0) *spacing = rounded;
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/plane.cpp ======== */
+
+/* ======== begin src/network/enclosure.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+/* The border of a patch seen in its plane. */
+struct Outline {
+  const Border& border;
+  Plane plane;
+  Array<Vec2> point;
+  double highest = 0.0, widest = 0.0;
+  double size = 0.0;  /* the square root of the area */
+
+  explicit Outline(const Border& of) : border(of), point(of.vertex.context()) {}
+};
+
+}  /* namespace */
+
+static uint32_t root_of_component(Span<uint32_t> parent, uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+static void join_along(const Network& network, const CurveVertices& vertices, uint32_t s,
+                       Span<uint32_t> parent) {
+  for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+    const uint32_t a = root_of_component(parent, segment_vertex(network, vertices, s, k));
+    const uint32_t b = root_of_component(parent, segment_vertex(network, vertices, s, k + 1));
+    (a < b ? parent[b] : parent[a]) = a < b ? a : b;
+  }
+}
+
+Status find_components(const Network& network, const CurveVertices& vertices,
+                       Components* components) {
+  const uint32_t n = static_cast<uint32_t>(vertices.position.size());
+  Array<uint32_t>& of = components->of_vertex;
+  TRY(of.resize(n));
+  for (uint32_t v = 0; v < n; ++v) of[v] = v;
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    join_along(network, vertices, s, of.span());
+  }
+  uint32_t count = 0;  /* roots are the least of their members, so they are numbered before these */
+  for (uint32_t v = 0; v < n; ++v) of[v] = of[v] == v ? count++ : of[of[v]];
+  Array<uint32_t>& start = components->members.start;
+  TRY(start.assign(size_t{count} + 1, 0));
+  TRY(components->members.item.resize(n));
+  for (uint32_t v = 0; v < n; ++v) ++start[of[v]];
+  starts_from_counts(start.span());
+  for (uint32_t v = 0; v < n; ++v) components->members.item[start[of[v]]++] = v;
+  for (uint32_t c = count; c > 0; --c) start[c] = start[c - 1];
+  start[0] = 0;
+  TRY(components->bounds.assign(count, 0));
+  for (uint32_t h : network.loop.item) {
+    components->bounds[of[segment_vertex(network, vertices, h / 2, 0)]] = 1;
+  }
+  return {};
+}
+
+/* Whether a ray from p to the right crosses the outline an odd number of times. */
+static bool inside(const Outline& outline, const Vec2& p) {
+  bool odd = false;
+  for (uint32_t l = 0; l < outline.border.loops(); ++l) {
+    for (uint32_t i = outline.border.start[l]; i < outline.border.start[l + 1]; ++i) {
+      const Vec2 &a = outline.point[i], &b = outline.point[next_on_border(outline.border, l, i)];
+      if ((a.y > p.y) == (b.y > p.y)) continue;
+      if (p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+    }
+  }
+  return odd;
+}
+
+static Status draw_outline(Outline* outline) {
+  const Border& border = outline->border;
+  TRY(outline->point.resize(border.size()));
+  for (uint32_t i = 0; i < border.size(); ++i) {
+    const double height = std::fabs(outline->plane.height(border.position[i]));
+    outline->point[i] = outline->plane.project(border.position[i]);
+    if (height > outline->highest) outline->highest = height;
+    if (length(outline->point[i]) > outline->widest) outline->widest = length(outline->point[i]);
+  }
+  outline->size = std::sqrt(0.5 * std::fabs(dot(vector_area(border), outline->plane.normal)));
+  return {};
+}
+
+static void enclose(const CurveVertices& vertices, const Components& components, uint32_t c,
+                    const Outline& outline, uint32_t patch, Enclosing* best) {
+  constexpr double k_share_of_width = 0.1, k_share_for_pieces = 0.5, k_weight_of_height = 4.0;
+  const double share = components.bounds[c] ? k_share_of_width : k_share_for_pieces;
+  const double reach = outline.highest + share * outline.widest;
+  double excess = 0.0, known = 0.0;
+  Vec3 normal;
+  for (uint32_t v : components.members[c]) {
+    const Vec3& p = vertices.position[v];
+    const Vec2 q = outline.plane.project(p);
+    const double height = std::fabs(outline.plane.height(p));
+    if (!(length(q) <= outline.widest && height <= reach && inside(outline, q))) return;
+    if (height - outline.highest > excess) excess = height - outline.highest;
+    normal += vertices.normal[v];
+    known += vertices.normal[v] != Vec3{} ? 1.0 : 0.0;
+  }
+  if (!components.bounds[c] && dot(normal, outline.plane.normal) < 0.0) return;
+  const double score = outline.size + k_weight_of_height * excess;
+  if (best->patch != k_none && !(score < best->score)) return;
+  const double facing = known > 0.0 ? dot(normal, outline.plane.normal) / known : 1.0;
+  *best = {patch, score, outline.plane.normal, facing};
+}
+
+Status find_enclosing(const Network& network, const CurveVertices& vertices,
+                      const Components& components, Array<Enclosing>* enclosing) {
+  Context& context = enclosing->context();
+  const uint32_t count = components.members.count();
+  TRY(enclosing->assign(count, Enclosing{}));
+  Array<uint32_t> order(context);
+  Border border(context);
+  TRY(order.resize(count));
+  for (uint32_t c = 0; c < count; ++c) order[c] = c;
+  const auto place = [&](uint32_t c) { return vertices.position[components.members[c][0]].x; };
+  sort(order.span(),
+       [&](uint32_t a, uint32_t b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
+  for (uint32_t p = 0; count > 1 && p < network.patches(); ++p) {
+    TRY(border_of_patch(network, vertices, p, &border));
+    Outline outline(border);
+    if (!fit_plane(border, &outline.plane).ok()) continue;
+    /* What runs clockwise is the outside of its loop. */
+    const bool clockwise = dot(vector_area(border), outline.plane.normal) < 0.0;
+    if (clockwise && !network.ring[p]) continue;
+    TRY(draw_outline(&outline));
+    const double reach = 2.0 * outline.widest + outline.highest;
+    size_t low = 0, high = count;
+    while (low < high) {
+      const size_t middle = low + (high - low) / 2;
+      if (place(order[middle]) < outline.plane.origin.x - reach) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    const uint32_t own = components.of_vertex[border.vertex[0]];
+    for (; low < count && place(order[low]) <= outline.plane.origin.x + reach; ++low) {
+      const uint32_t c = order[low];
+      if (c != own) enclose(vertices, components, c, outline, p, &(*enclosing)[c]);
+    }
+    TRY(context.checkpoint());
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/enclosure.cpp ======== */
+
+/* ======== begin src/network/group.cpp ======== */
+namespace wireskin::network {
+
+/* Loops whose normals agree with their axis better than this bound a patch by themselves, if no */
+/* other loop needs them. */
+static constexpr double k_clearly_closed = 0.5;
+/* Conormals must lead to the other loop with at least this cosine in the mean. */
+static constexpr double k_least_facing_cosine = 0.2;
+/* And with this one where both loops are of one component, neither of them being closed alone. */
+static constexpr double k_least_facing_in_component = 0.6;
+/* A ring whose normals agree less with its axis has no side of its own: closing it alone is no way. */
+static constexpr double k_unclear_side = 0.02;
+/* Choices whose areas differ by less than this part are equally good. */
+static constexpr double k_hardly_more = 1.1;
+/* Pieces that face their plane less clearly are asked where they lie in space. */
+static constexpr double k_clearly_facing = 0.5;
+/* Rule 2 looks at this many vertices of a loop at most. */
+static constexpr uint32_t k_most_probes = 64;
+
+namespace {
+
+/* What is being decided of each patch: `parent` as in union-find, reversed where the other side of */
+/* a ring was taken. */
+struct Grouping {
+  const CurveVertices& vertices;
+  Network* network;
+  Components components;
+  Array<Enclosing> enclosing;  /* of each component */
+  Array<uint32_t> component;   /* of each patch */
+  Array<uint32_t> parent;      /* of each patch */
+  Array<uint8_t> reversed;     /* of each patch */
+  Array<uint8_t> told;         /* of each patch: a ring whose side something inside it tells */
+  Array<uint32_t> holder;      /* of each component that bounds nothing: its patch */
+  Array<uint32_t> doubtful;    /* the same where another patch may be the right one */
+  Array<uint8_t> ambiguous;    /* of each patch */
+
+  Grouping(Context& context, const CurveVertices& of, Network* net)
+      : vertices(of),
+        network(net),
+        components(context),
+        enclosing(context),
+        component(context),
+        parent(context),
+        reversed(context),
+        told(context),
+        holder(context),
+        doubtful(context),
+        ambiguous(context) {}
+  uint32_t root(uint32_t p) {
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
+  }
+  void join(uint32_t a, uint32_t b) {
+    const uint32_t x = root(a), y = root(b);
+    (x < y ? parent[y] : parent[x]) = x < y ? x : y;
+  }
+};
+
+/* A side of a loop that may face another one: a thinned list of its vertices. */
+struct Facing {
+  uint32_t patch;
+  bool reversed;
+  uint32_t first, count;  /* of the probes */
+  bool needy;             /* hard to close alone */
+  double alone;           /* what closing it costs */
+  Vec3 centre;
+  double radius;
+  bool sideless = false;  /* a ring whose normals do not tell on which side it could be closed */
+};
+
+struct Probe {
+  Vec3 position, conormal;
+  double share;  /* of the length of the loop */
+};
+
+struct Band {
+  uint32_t a, b;
+  double area;
+};
+
+}  /* namespace */
+
+static Status take_components(Grouping* g) {
+  const Network& network = *g->network;
+  const uint32_t patches = network.patches();
+  TRY(find_components(network, g->vertices, &g->components));
+  TRY(g->component.resize(patches));
+  TRY(g->parent.resize(patches));
+  TRY(g->reversed.assign(patches, 0));
+  TRY(g->told.assign(patches, 0));
+  TRY(g->ambiguous.assign(patches, 0));
+  TRY(g->holder.assign(g->components.members.count(), k_none));
+  TRY(g->doubtful.assign(g->components.members.count(), k_none));
+  for (uint32_t p = 0; p < patches; ++p) {
+    g->parent[p] = p;
+    g->component[p] =
+        g->components.of_vertex[segment_vertex(network, g->vertices, network.cycle(p)[0] / 2, 0)];
+  }
+  return {};
+}
+
+/* ---- Rule 1 ------------------------------------------------------------------------------------- */
+
+/* Of each component the patches, ascending. */
+static Status list_patches(const Grouping& g, Lists* lists) {
+  TRY(lists->start.assign(g.components.members.count() + size_t{1}, 0));
+  TRY(lists->item.resize(g.component.size()));
+  for (uint32_t c : g.component) ++lists->start[c];
+  starts_from_counts(lists->start.span());
+  for (uint32_t p = 0; p < g.component.size(); ++p) lists->item[lists->start[g.component[p]]++] = p;
+  for (size_t c = lists->start.size() - 1; c > 0; --c) lists->start[c] = lists->start[c - 1];
+  lists->start[0] = 0;
+  return {};
+}
+
+/* The patch of an enclosed component whose border runs clockwise seen from the enclosing one's */
+/* normal, and faces the same way; of several the largest. */
+static Status clockwise_patch(const Grouping& g, Span<const uint32_t> patches, const Vec3& normal,
+                              uint32_t* found) {
+  Border border(g.parent.context());
+  double greatest = 0.0;
+  *found = k_none;
+  for (uint32_t p : patches) {
+    TRY(border_of_patch(*g.network, g.vertices, p, &border));
+    const double area = dot(vector_area(border), normal) * (g.network->ring[p] ? 1.0 : -1.0);
+    if (dot(mean_normal(border), normal) < 0.0 || !(area > greatest)) continue;
+    greatest = area;
+    *found = p;
+  }
+  return {};
+}
+
+static Status join_enclosed(Grouping* g) {
+  const uint32_t count = g->components.members.count();
+  Context& context = g->parent.context();
+  Array<uint32_t> order(context);
+  Lists patches(context);
+  TRY(list_patches(*g, &patches));
+  for (uint32_t c = 0; c < count; ++c) {
+    if (g->enclosing[c].patch != k_none) TRY(order.push(c));
+  }
+  /* The outermost first: the inside of a hole encloses nothing. */
+  const auto score = [&](uint32_t c) { return g->enclosing[c].score; };
+  sort(order.span(),
+       [&](uint32_t a, uint32_t b) { return score(a) != score(b) ? score(a) > score(b) : a < b; });
+  for (uint32_t c : order) {
+    const Enclosing& outer = g->enclosing[c];
+    if (g->reversed[outer.patch]) continue;
+    if (!g->components.bounds[c]) {
+      (outer.facing < k_clearly_facing ? g->doubtful : g->holder)[c] = outer.patch;
+      continue;
+    }
+    uint32_t inner = k_none;
+    TRY(clockwise_patch(*g, patches[c], outer.normal, &inner));
+    if (inner == k_none) continue;
+    g->reversed[inner] = g->network->ring[inner];
+    g->join(outer.patch, inner);
+  }
+  return {};
+}
+
+/* ---- Rule 2 ------------------------------------------------------------------------------------- */
+
+/* The cosine between normals and axis in the mean over a loop, and the area that it encloses. */
+static double closing_cosine(const Border& border, double* area) {
+  const Vec3 axis = vector_area(border);
+  *area = 0.5 * length(axis);
+  return dot(mean_normal(border), unit(axis));
+}
+
+static Status add_facing(const Border& border, uint32_t patch, bool reversed, double cosine,
+                         double area, Array<Facing>* facing, Array<Probe>* probes) {
+  const uint32_t n = border.size();
+  const uint32_t count = n < k_most_probes ? n : k_most_probes;
+  const double least = larger(1.0 + cosine, 1e-3);
+  Facing f = {patch,
+              reversed,
+              static_cast<uint32_t>(probes->size()),
+              count,
+              cosine < k_clearly_closed,
+              8.0 * area / (least * least * least),
+              Vec3{},
+              0.0};
+  const double total = border_length(border);
+  for (uint32_t k = 0; k < count; ++k) {
+    const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
+    const Vec3& p = border.position[i];
+    const Vec3& next = border.position[i + 1 < n ? i + 1 : 0];
+    const Vec3& before = border.position[i > 0 ? i - 1 : n - 1];
+    const Vec3 conormal = unit(cross(border.normal[i], next - before));
+    TRY(probes->push({p, reversed ? -conormal : conormal, total / count}));
+    f.centre += (1.0 / count) * p;
+  }
+  for (uint32_t k = 0; k < count; ++k) {
+    f.radius = larger(f.radius, length((*probes)[f.first + k].position - f.centre));
+  }
+  return facing->push(f);
+}
+
+static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing>* facing,
+                          Array<Probe>* probes) {
+  const Network& network = *g->network;
+  Border border(g->parent.context());
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    if (g->root(p) != p || g->reversed[p] ||
+        network.patch_start[p + 1] != network.patch_start[p] + 1)
+      continue;
+    TRY(border_of_patch(network, g->vertices, p, &border));
+    double area = 0.0;
+    const double cosine = closing_cosine(border, &area);
+    TRY(add_facing(border, p, false, cosine, area, facing, probes));
+    if (network.ring[p] && !decided[p]) {
+      /* A ring alone takes the cheaper side. */
+      TRY(add_facing(border, p, true, -cosine, area, facing, probes));
+      Facing *one = &(*facing)[facing->size() - 2], *other = &facing->back();
+      const bool unclear = std::fabs(cosine) < k_unclear_side;
+      one->alone = other->alone = smaller(one->alone, other->alone);
+      one->sideless = other->sideless = unclear;
+    }
+    TRY(border.vertex.context().checkpoint());
+  }
+  return {};
+}
+
+/* The area of a band from a's probes to the nearest ones of b, more where its conormals lead */
+/* elsewhere; negative where they do not lead there. */
+static double half_band(const Facing& a, const Facing& b, Span<const Probe> probes,
+                        double least_cosine) {
+  double area = 0.0, cosine = 0.0;
+  for (const Probe& p : probes.part(a.first, a.count)) {
+    Vec3 nearest;
+    double least = DBL_MAX;
+    for (const Probe& q : probes.part(b.first, b.count)) {
+      const Vec3 way = q.position - p.position;
+      if (dot(way, way) < least) {
+        least = dot(way, way);
+        nearest = way;
+      }
+    }
+    if (least == 0.0) return -1.0;  /* loops that touch */
+    area += 0.5 * p.share * std::sqrt(least);
+    cosine += dot(p.conormal, unit(nearest)) / static_cast<double>(a.count);
+  }
+  return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
+}
+
+static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<const Probe> probes,
+                         Array<Band>* bands) {
+  constexpr double k_far = 8.0;
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    const Facing& a = facing[i];
+    for (uint32_t j = 0; a.needy && j < facing.size(); ++j) {
+      const Facing& b = facing[j];
+      const bool same = g.component[a.patch] == g.component[b.patch];
+      if ((same && !b.needy) || a.patch == b.patch || (b.needy && j < i)) continue;
+      const double least = same ? k_least_facing_in_component : k_least_facing_cosine;
+      if (length(a.centre - b.centre) > k_far * (a.radius + b.radius)) continue;
+      const double from_a = half_band(a, b, probes, least);
+      if (from_a < 0.0) continue;
+      const double from_b = half_band(b, a, probes, least);
+      if (from_b < 0.0) continue;
+      TRY(bands->push({i, j, from_a + from_b}));
+    }
+    TRY(bands->context().checkpoint());
+  }
+  sort(bands->span(), [](const Band& x, const Band& y) {
+    if (x.area != y.area) return x.area < y.area;
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  return {};
+}
+
+/* Whether two groups have loops of the same component: a patch that meets itself across a curve is */
+/* never what normals ask for where another loop was nearer. */
+static bool share_component(Grouping* g, Span<const Facing> facing, uint32_t a, uint32_t b) {
+  for (const Facing& x : facing) {
+    if (g->root(x.patch) != g->root(a)) continue;
+    for (const Facing& y : facing) {
+      if (g->root(y.patch) == g->root(b) && g->component[x.patch] == g->component[y.patch]) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+namespace {
+
+/* How far rule 2 has come. */
+struct Pairing {
+  Array<Facing> facing;
+  Array<uint8_t> joined;   /* facing */
+  Array<uint8_t> decided;  /* patch: which side of a ring has the surface */
+
+  explicit Pairing(Context& context) : facing(context), joined(context), decided(context) {}
+};
+
+}  /* namespace */
+
+/* What closing the two loops by themselves would cost, as far as they are not joined yet. */
+static double cost_alone(const Pairing& pairing, const Band& band) {
+  return (pairing.joined[band.a] ? 0.0 : pairing.facing[band.a].alone) +
+         (pairing.joined[band.b] ? 0.0 : pairing.facing[band.b].alone);
+}
+
+static bool loops_may_join(Grouping* g, const Pairing& pairing, const Band& band) {
+  const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
+  const bool wrong_side = (pairing.decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
+                          (pairing.decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
+  const bool both_alone = !pairing.joined[band.a] && !pairing.joined[band.b];
+  const bool no_other_way = both_alone && (a.sideless || b.sideless);
+  if (!(no_other_way || band.area < cost_alone(pairing, band)) || wrong_side) return false;
+  const bool same = g->component[a.patch] == g->component[b.patch];
+  return same ? both_alone : !share_component(g, pairing.facing.span(), a.patch, b.patch);
+}
+
+/* Whether closing the loops alone, or one of the bands that follow, which are larger, was hardly */
+/* worse than the first band and contradicts it. */
+static bool is_ambiguous(Grouping* g, const Pairing& pairing, Span<const Band> bands) {
+  const Band& band = bands[0];
+  if (cost_alone(pairing, band) < k_hardly_more * band.area) return true;
+  const uint32_t own[2] = {pairing.facing[band.a].patch, pairing.facing[band.b].patch};
+  for (size_t i = 1; i < bands.size() && bands[i].area < k_hardly_more * band.area; ++i) {
+    const Facing &a = pairing.facing[bands[i].a], &b = pairing.facing[bands[i].b];
+    for (int k = 0; k < 2; ++k) {
+      const bool reversed = pairing.facing[k == 0 ? band.a : band.b].reversed;
+      /* The same loop by its other side, or where it has one side only, with another loop. */
+      const bool by_a = a.patch == own[k] && (a.reversed != reversed || b.patch != own[1 - k]);
+      const bool by_b = b.patch == own[k] && (b.reversed != reversed || a.patch != own[1 - k]);
+      if ((by_a || by_b) && loops_may_join(g, pairing, bands[i])) return true;
+    }
+  }
+  return false;
+}
+
+static Status join_facing(Grouping* g) {
+  Context& context = g->parent.context();
+  Pairing pairing(context);
+  Array<Probe> probes(context);
+  Array<Band> bands(context);
+  Array<uint8_t>&joined = pairing.joined, &decided = pairing.decided;
+  TRY(decided.assign(g->parent.size(), 0));
+  for (uint32_t p = 0; p < decided.size(); ++p) {
+    if (g->root(p) != p) decided[p] = decided[g->root(p)] = 1;
+  }
+  TRY(list_facing(g, decided.span(), &pairing.facing, &probes));
+  TRY(list_bands(*g, pairing.facing.span(), probes.span(), &bands));
+  TRY(joined.assign(pairing.facing.size(), 0));
+  for (size_t i = 0; i < joined.size(); ++i) joined[i] = decided[pairing.facing[i].patch];
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const Band& band = bands[i];
+    if (!loops_may_join(g, pairing, band)) continue;
+    const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
+    if (is_ambiguous(g, pairing, bands.span().part(i, bands.size() - i))) {
+      g->ambiguous[a.patch] = g->ambiguous[b.patch] = 1;
+    }
+    decided[a.patch] = decided[b.patch] = 1;
+    g->reversed[a.patch] = a.reversed;
+    g->reversed[b.patch] = b.reversed;
+    joined[band.a] = joined[band.b] = 1;
+    g->join(a.patch, b.patch);
+    TRY(context.checkpoint());
+  }
+  return {};
+}
+
+/* ---- The result --------------------------------------------------------------------------------- */
+
+/* A ring on its own needs normals that tell inside from outside. */
+static Status check_rings(Grouping* g) {
+  constexpr double k_no_cosine = 1e-6, k_clear_area = 1.0 / 60.0;
+  Border border(g->parent.context());
+  Array<uint32_t> members(g->parent.context());
+  if (g->parent.empty()) return {};
+  TRY(members.assign(g->parent.size(), 0));
+  for (uint32_t p = 0; p < members.size(); ++p) ++members[g->root(p)];
+  for (uint32_t p = 0; p < members.size(); ++p) {
+    if (!g->network->ring[p] || members[g->root(p)] != 1 || g->told[p]) continue;
+    TRY(border_of_patch(*g->network, g->vertices, p, &border));
+    double area = 0.0;
+    bool known = false;
+    for (const Vec3& n : border.normal) known = known || n != Vec3{};
+    const double cosine = closing_cosine(border, &area), perimeter = border_length(border);
+    const bool clear = area > k_clear_area * perimeter * perimeter;
+    if (!known || !clear || std::fabs(cosine) > k_no_cosine) continue;
+    Place place;
+    place.curve = g->network->segment[g->network->cycle(p)[0] / 2].curve;
+    place.sample = 0;
+    return fail(Code::open_network,
+                "the normals do not tell on which side of this boundary curve the surface lies",
+                place);
+  }
+  return {};
+}
+
+static Status check_holders(const Grouping& g, Span<const uint8_t> settled) {
+  const Network& network = *g.network;
+  for (uint32_t c = 0; c < g.holder.size(); ++c) {
+    if (g.components.bounds[c] || settled[c] || g.holder[c] != k_none) continue;
+    const uint32_t v = g.components.members[c][0];
+    Place place;
+    place.curve = g.vertices.curve[v];
+    for (const Segment& s : network.segment) {
+      const bool here = s.from != k_none && (g.components.of_vertex[s.from] == c);
+      if (here && s.curve < place.curve) place.curve = s.curve;
+    }
+    return fail(Code::open_network,
+                place.curve == k_none ? "the point lies inside no patch"
+                                      : "the curve bounds no patch and lies inside none",
+                place);
+  }
+  return {};
+}
+
+static Status append_loops(const Grouping& g, uint32_t p, Lists* loops) {
+  const Network& old = *g.network;
+  for (uint32_t l = old.patch_start[p]; l < old.patch_start[p + 1]; ++l) {
+    const Span<const uint32_t> half = old.loop[l];
+    for (size_t i = 0; i < half.size(); ++i) {
+      TRY(loops->item.push(g.reversed[p] ? opposite(half[half.size() - 1 - i]) : half[i]));
+    }
+    TRY(loops->close());
+  }
+  return {};
+}
+
+/* What lies inside each patch: the segments of its own cycle, loose pieces and points. `held` lists */
+/* the components by holder, `piece` the list of loose segments of each component. */
+static Status append_inside(const Grouping& g, uint32_t p, Span<const uint32_t> held,
+                            Span<const uint32_t> piece, Network* fresh) {
+  const Network& old = *g.network;
+  for (uint32_t s : old.inner[p]) TRY(fresh->inner.item.push(s));
+  if (old.point.count() > 0) {
+    for (uint32_t v : old.point[p]) TRY(fresh->point.item.push(v));
+  }
+  for (uint32_t c : held) {
+    if (piece[c] == k_none) {
+      TRY(fresh->point.item.push(g.components.members[c][0]));
+      continue;
+    }
+    for (uint32_t s : old.loose[piece[c]]) TRY(fresh->inner.item.push(s));
+  }
+  return {};
+}
+
+/* Sorted by holder; `start[p]` .. `start[p + 1]` are those of patch p. */
+static Status list_held(const Grouping& g, Lists* held) {
+  TRY(held->start.assign(g.parent.size() + 1, 0));
+  for (uint32_t p : g.holder) {
+    if (p != k_none) ++held->start[p];
+  }
+  TRY(held->item.resize(starts_from_counts(held->start.span())));
+  for (uint32_t c = 0; c < g.holder.size(); ++c) {
+    if (g.holder[c] != k_none) held->item[held->start[g.holder[c]]++] = c;
+  }
+  for (size_t p = held->start.size() - 1; p > 0; --p) held->start[p] = held->start[p - 1];
+  held->start[0] = 0;
+  return {};
+}
+
+/* Writes the groups as the network's patches, in the order of the least patch of each. `number`: of */
+/* each old patch the new one; `ambiguous`: of each new patch. */
+static Status rebuild(Grouping* g, Array<uint32_t>* number, Array<uint8_t>* ambiguous) {
+  Network& old = *g->network;
+  Context& context = old.segment.context();
+  Network fresh(context);
+  Lists held(context);
+  Array<uint32_t> order(context), piece(context);
+  TRY(list_held(*g, &held));
+  TRY(piece.assign(g->holder.size(), k_none));
+  for (uint32_t i = 0; i < old.loose.count(); ++i) {
+    piece[g->components.of_vertex[old.segment[old.loose[i][0]].from]] = i;
+  }
+  TRY(order.resize(old.patches()));
+  TRY(number->resize(old.patches()));
+  ambiguous->clear();
+  for (uint32_t p = 0; p < order.size(); ++p) order[p] = p;
+  sort(order.span(), [&](uint32_t a, uint32_t b) {
+    const uint32_t x = g->root(a), y = g->root(b);
+    return x != y ? x < y : a < b;
+  });
+  TRY(fresh.patch_start.push(0));
+  for (size_t first = 0, end = 0; first < order.size(); first = end) {
+    uint8_t any = 0;
+    while (end < order.size() && g->root(order[end]) == g->root(order[first])) {
+      const uint32_t p = order[end++];
+      any |= g->ambiguous[p];
+      (*number)[p] = fresh.patches();
+      TRY(append_loops(*g, p, &fresh.loop));
+      TRY(append_inside(*g, p, held[p], piece.span(), &fresh));
+    }
+    TRY(ambiguous->push(any));
+    TRY(fresh.patch_start.push(fresh.loop.count()));
+    TRY(fresh.ring.push(end - first == 1 ? old.ring[order[first]] : uint8_t{0}));
+    TRY(fresh.inner.close());
+    TRY(fresh.point.close());
+    TRY(context.checkpoint());
+  }
+  fresh.segment = static_cast<Array<Segment>&&>(old.segment);
+  fresh.loose = static_cast<Lists&&>(old.loose);
+  old = static_cast<Network&&>(fresh);
+  return {};
+}
+
+/* ---- Rule 3 ------------------------------------------------------------------------------------- */
+
+namespace {
+
+/* What may lie on a surface: a component that bounds nothing (patch k_none), or one with a loop */
+/* that is no outer one. */
+struct Guest {
+  uint32_t component;
+  uint32_t patch;
+};
+
+}  /* namespace */
+
+static void reverse_loop(Border* border) {
+  const auto reverse = [](auto& array) {
+    for (size_t i = 0, j = array.size() - 1; i < j; ++i, --j) {
+      const auto kept = array[i];
+      array[i] = array[j];
+      array[j] = kept;
+    }
+  };
+  reverse(border->vertex);
+  reverse(border->position);
+  reverse(border->normal);
+}
+
+/* `clockwise`: of each patch, whether it has one loop and that runs so. */
+static Status list_guests(const Grouping& g, Span<const uint8_t> settled, Array<uint8_t>* clockwise,
+                          Array<Guest>* guests) {
+  constexpr double k_clearly_round = 0.3;
+  const Network& network = *g.network;
+  Border border(guests->context());
+  TRY(clockwise->assign(network.patches(), 0));
+  for (uint32_t c = 0; c < g.holder.size(); ++c) {
+    if (!g.components.bounds[c] && !settled[c]) TRY(guests->push({c, k_none}));
+  }
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    if (network.patch_start[p + 1] != network.patch_start[p] + 1) continue;
+    TRY(border_of_patch(network, g.vertices, p, &border));
+    double area = 0.0;
+    const double cosine = closing_cosine(border, &area);
+    (*clockwise)[p] = !network.ring[p] && cosine < -k_clearly_round;
+    const bool round_ring = network.ring[p] && std::fabs(cosine) > k_clearly_round;
+    if ((*clockwise)[p] || round_ring) TRY(guests->push({g.component[p], p}));
+  }
+  return {};
+}
+
+/* Whether some guest is no farther from the border's box than its diagonal. */
+static bool has_guest_near(const Grouping& g, const Border& border, Span<const Guest> guests) {
+  Vec3 centre;
+  double reach = 0.0;
+  for (const Vec3& p : border.position) centre += (1.0 / border.size()) * p;
+  for (const Vec3& p : border.position) reach = larger(reach, length(p - centre));
+  for (const Guest& guest : guests) {
+    const Vec3& p = g.vertices.position[g.components.members[guest.component][0]];
+    if (length(p - centre) < 3.0 * reach) return true;
+  }
+  return false;
+}
+
+static Status guess_patches(const Grouping& g, Span<const uint8_t> clockwise,
+                            Span<const Guest> guests, PatchGuesses* guesses) {
+  constexpr double k_either_side = 0.3;
+  Border border(guesses->patch.context());
+  for (uint32_t p = 0; p < g.network->patches(); ++p) {
+    if (clockwise[p]) continue;
+    TRY(border_of_patch(*g.network, g.vertices, p, &border));
+    if (!has_guest_near(g, border, guests)) continue;
+    double area = 0.0;
+    const double cosine = closing_cosine(border, &area);
+    const bool ring = g.network->ring[p] != 0;
+    if (!ring || cosine > -k_either_side) TRY(add_guess(border, 2 * p, guesses));
+    if (!ring || cosine > k_either_side) continue;
+    reverse_loop(&border);
+    TRY(add_guess(border, 2 * p + 1, guesses));
+  }
+  return {};
+}
+
+/* The patch on which a guest lies; a ring is turned to the side found. */
+static uint32_t host_of(Grouping* g, const Guest& guest, const PatchGuesses& guesses,
+                        Span<uint8_t> turned) {
+  constexpr double k_farthest_piece = 0.5, k_farthest_loop = 0.25;
+  const bool loop = guest.patch != k_none;
+  const Piece piece = {g->components.members[guest.component],
+                       loop ? k_farthest_loop : k_farthest_piece, loop ? k_clearly_facing : 0.0,
+                       guest.patch};
+  const uint32_t found = nearest_patch(g->vertices, piece, guesses);
+  if (found == k_none) return k_none;
+  const uint32_t host = guesses.patch[found].number / 2, side = guesses.patch[found].number % 2;
+  if (loop && g->component[host] == guest.component) return k_none;
+  if (g->network->ring[host] && turned[host] != side + 1) {
+    if (turned[host] != 0) return k_none;  /* another guest has turned it the other way */
+    turned[host] = static_cast<uint8_t>(side + 1);
+    g->reversed[host] = static_cast<uint8_t>(side);
+    g->told[host] = 1;
+  }
+  return host;
+}
+
+static Status join_guests(Grouping* g, Span<const uint8_t> settled) {
+  Context& context = g->parent.context();
+  Array<Guest> guests(context);
+  Array<uint8_t> clockwise(context), turned(context);
+  PatchGuesses guesses(context);
+  if (g->components.members.count() < 2) return {};
+  TRY(list_guests(*g, settled, &clockwise, &guests));
+  if (guests.empty()) return {};
+  TRY(guess_patches(*g, clockwise.span(), guests.span(), &guesses));
+  TRY(turned.assign(g->network->patches(), 0));
+  for (const Guest& guest : guests) {
+    const uint32_t host = host_of(g, guest, guesses, turned.span());
+    TRY(context.checkpoint());
+    if (guest.patch == k_none) {
+      g->holder[guest.component] = host != k_none ? host : g->doubtful[guest.component];
+      continue;
+    }
+    if (host == k_none || g->root(host) == g->root(guest.patch)) continue;
+    g->reversed[guest.patch] = g->network->ring[guest.patch];
+    g->join(host, guest.patch);
+  }
+  return {};
+}
+
+static void count_ambiguous(Span<const uint8_t> ambiguous, Ambiguity* ambiguity) {
+  for (uint32_t p = 0; p < ambiguous.size(); ++p) {
+    if (ambiguous[p] && ambiguity->patches++ == 0) ambiguity->first = p;
+  }
+}
+
+Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity* ambiguity) {
+  Ambiguity unasked;
+  Context& context = network->segment.context();
+  Grouping planes(context, vertices, network), spaces(context, vertices, network);
+  Array<uint32_t> number(context);
+  Array<uint8_t> settled(context), ambiguous(context);
+  TRY(take_components(&planes));
+  TRY(find_enclosing(*network, vertices, planes.components, &planes.enclosing));
+  TRY(join_enclosed(&planes));
+  TRY(join_facing(&planes));
+  TRY(rebuild(&planes, &number, &ambiguous));
+  TRY(take_components(&spaces));
+  TRY(settled.assign(planes.holder.size(), 0));
+  for (size_t c = 0; c < settled.size(); ++c) {
+    settled[c] = planes.holder[c] != k_none;
+    const uint32_t doubtful = planes.doubtful[c];
+    if (doubtful != k_none) spaces.doubtful[c] = number[doubtful];
+  }
+  for (size_t p = 0; p < ambiguous.size(); ++p) spaces.ambiguous[p] = ambiguous[p];
+  TRY(join_guests(&spaces, settled.span()));
+  TRY(check_rings(&spaces));
+  TRY(check_holders(spaces, settled.span()));
+  TRY(rebuild(&spaces, &number, &ambiguous));
+  count_ambiguous(ambiguous.span(), ambiguity != nullptr ? ambiguity : &unasked);
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/group.cpp ======== */
+
+/* ======== begin src/network/nearest_patch.cpp ======== */
+namespace wireskin::network {
+
+static constexpr uint32_t k_most_of_guess = 48;  /* vertices of a loop */
+static constexpr uint32_t k_most_piece_probes = 48;
+
+/* Every so many-th vertex of each loop. */
+static Status thin_border(const Border& border, Border* thin) {
+  TRY(thin->start.push(0));
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    const uint32_t first = border.start[l], n = border.start[l + 1] - first;
+    const uint32_t count = n < k_most_of_guess ? n : k_most_of_guess;
+    for (uint32_t k = 0; k < count; ++k) {
+      const uint32_t i = first + static_cast<uint32_t>(uint64_t{k} * n / count);
+      TRY(thin->vertex.push(border.vertex[i]));
+      TRY(thin->position.push(border.position[i]));
+      TRY(thin->normal.push(border.normal[i]));
+    }
+    TRY(thin->start.push(thin->size()));
+  }
+  return {};
+}
+
+static void measure_guess(Span<const Vec3> position, Span<const uint32_t> triangle,
+                          PatchGuess* guess) {
+  double area = 0.0;
+  guess->low = guess->high = position[0];
+  for (const Vec3& p : position) {
+    Vec3 &low = guess->low, &high = guess->high;
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
+  }
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    const Vec3& a = position[triangle[t]];
+    area += 0.5 * length(cross(position[triangle[t + 1]] - a, position[triangle[t + 2]] - a));
+  }
+  guess->size = std::sqrt(area);
+}
+
+Status add_guess(const Border& border, uint32_t number, PatchGuesses* guesses) {
+  Context& context = border.vertex.context();
+  Border thin(context);
+  SpaceMesh mesh(context);
+  TRY(thin_border(border, &thin));
+  const double spacing = border_length(thin) / static_cast<double>(thin.size());
+  const Status made = mesh_border_in_space(thin, spacing, &mesh);
+  if (made.code == Code::patch_folded) return {};
+  TRY(made);
+  PatchGuess guess = {number,
+                      static_cast<uint32_t>(guesses->position.size()),
+                      static_cast<uint32_t>(guesses->triangle.size()),
+                      static_cast<uint32_t>(mesh.triangle.size()),
+                      thin.size(),
+                      0.0,
+                      Vec3{},
+                      Vec3{}};
+  measure_guess(mesh.position.span(), mesh.triangle.span(), &guess);
+  for (const Vec3& p : mesh.position) TRY(guesses->position.push(p));
+  for (uint32_t v : mesh.triangle) TRY(guesses->triangle.push(v));
+  TRY(guesses->patch.push(guess));
+  return context.checkpoint();
+}
+
+namespace {
+
+/* The place of a patch nearest to a point. */
+struct Foot {
+  double distance = DBL_MAX;
+  Vec3 normal;
+  bool on_border = false;
+};
+
+}  /* namespace */
+
+static Foot find_foot(const PatchGuesses& guesses, const PatchGuess& guess, const Vec3& p) {
+  Foot foot;
+  const Vec3* position = &guesses.position[guess.first_vertex];
+  for (uint32_t t = 0; t < guess.triangles; t += 3) {
+    const uint32_t* v = &guesses.triangle[guess.first_triangle + t];
+    const Vec3 &a = position[v[0]], &b = position[v[1]], &c = position[v[2]];
+    const Vec3 w = mesh::nearest_weights(p, a, b, c);
+    const double distance = length(w.x * a + w.y * b + w.z * c - p);
+    if (!(distance < foot.distance)) continue;
+    const double weight[3] = {w.x, w.y, w.z};
+    bool rim = false, inner = false;
+    for (int k = 0; k < 3; ++k) {
+      if (weight[k] == 0.0) continue;
+      (v[k] < guess.rim ? rim : inner) = true;
+    }
+    const bool all = weight[0] != 0.0 && weight[1] != 0.0 && weight[2] != 0.0;
+    foot = {distance, unit(cross(b - a, c - a)), rim && !inner && !all};
+  }
+  return foot;
+}
+
+static bool meets_box(const PatchGuess& guess, const Vec3& p) {
+  const double s = guess.size;
+  return p.x > guess.low.x - s && p.x < guess.high.x + s && p.y > guess.low.y - s &&
+         p.y < guess.high.y + s && p.z > guess.low.z - s && p.z < guess.high.z + s;
+}
+
+/* The greatest distance of the piece from the patch, DBL_MAX where it does not lie on it. */
+static double distance_of_piece(const CurveVertices& vertices, const Piece& piece,
+                                const PatchGuesses& guesses, const PatchGuess& guess) {
+  const size_t n = piece.vertex.size();
+  const size_t count = n < k_most_piece_probes ? n : k_most_piece_probes;
+  double greatest = 0.0, facing = 0.0, known = 0.0;
+  for (size_t k = 0; k < count; ++k) {
+    const uint32_t v = piece.vertex[k * n / count];
+    const Vec3& p = vertices.position[v];
+    if (!meets_box(guess, p)) return DBL_MAX;
+    const Foot foot = find_foot(guesses, guess, p);
+    if (foot.on_border || !(foot.distance <= piece.farthest * guess.size)) return DBL_MAX;
+    greatest = larger(greatest, foot.distance);
+    facing += dot(vertices.normal[v], foot.normal);
+    known += vertices.normal[v] != Vec3{} ? 1.0 : 0.0;
+  }
+  return facing < piece.least_facing * known ? DBL_MAX : greatest;
+}
+
+uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
+                       const PatchGuesses& guesses) {
+  uint32_t nearest = k_none;
+  double least = DBL_MAX;
+  for (uint32_t i = 0; i < guesses.patch.size(); ++i) {
+    if (guesses.patch[i].number / 2 == piece.but) continue;
+    const double distance = distance_of_piece(vertices, piece, guesses, guesses.patch[i]);
+    if (!(distance < least)) continue;
+    least = distance;
+    nearest = i;
+  }
+  return nearest;
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/nearest_patch.cpp ======== */
+
+/* ======== begin src/network/kept_parts.cpp ======== */
+namespace wireskin::network {
+
+static Span<const uint32_t> kept_of_curve(const KeptSamples& samples, size_t curve) {
+  const uint32_t first = samples.kept_start[curve];
+  return samples.kept.part(first, samples.kept_start[curve + 1] - first);
+}
+
+static uint32_t count_nodes(const KeptSamples& samples) {
+  uint32_t nodes = 0;
+  for (const uint32_t node : samples.node) {
+    if (node != k_none && node >= nodes) nodes = node + 1;
+  }
+  return nodes;
+}
+
+/* Which part each curve is of, parts being numbered in the order of their first curves. */
+static Status number_parts(const KeptSamples& samples, Array<uint32_t>* part, uint32_t* parts) {
+  const uint32_t curves = static_cast<uint32_t>(samples.closed.size());
+  DisjointSets sets(part->context());
+  Array<uint32_t> curve_of_node(part->context());
+  TRY(sets.reset(curves));
+  TRY(curve_of_node.assign(count_nodes(samples), k_none));
+  TRY(part->resize(curves));
+  for (uint32_t c = 0; c < curves; ++c) {
+    for (const uint32_t k : kept_of_curve(samples, c)) {
+      const uint32_t node = samples.node[samples.start[c] + k];
+      if (node == k_none) continue;
+      if (curve_of_node[node] == k_none) curve_of_node[node] = c;
+      sets.unite(curve_of_node[node], c);
+    }
+  }
+  Array<uint32_t> number(part->context());
+  TRY(number.assign(curves, k_none));
+  *parts = 0;
+  for (uint32_t c = 0; c < curves; ++c) {
+    uint32_t& own = number[sets.find(c)];
+    if (own == k_none) own = (*parts)++;
+    (*part)[c] = own;
+  }
+  return {};
+}
+
+/* The curves part by part, in each in the order given. */
+Status KeptParts::sort_curves(Array<uint32_t>* order) {
+  Array<uint32_t> part(order->context()), fill(order->context());
+  uint32_t parts = 0;
+  TRY(number_parts(samples_, &part, &parts));
+  TRY(first_curve_.assign(size_t{parts} + 1, 0));
+  for (const uint32_t p : part) ++first_curve_[p + 1];
+  for (uint32_t p = 0; p < parts; ++p) first_curve_[p + 1] += first_curve_[p];
+  TRY(fill.copy(first_curve_.span()));
+  TRY(order->resize(part.size()));
+  for (uint32_t c = 0; c < part.size(); ++c) (*order)[fill[part[c]]++] = c;
+  return {};
+}
+
+Status KeptParts::copy_curves(Span<const uint32_t> order) {
+  TRY(start_.resize(order.size()));
+  TRY(closed_.resize(order.size()));
+  TRY(first_kept_.resize(first_curve_.size()));
+  TRY(kept_start_.reserve(order.size() + count()));
+  TRY(kept_.reserve(samples_.kept.size()));
+  kept_start_.clear();
+  kept_.clear();
+  first_kept_[0] = 0;
+  for (uint32_t p = 0; p < count(); ++p) {
+    kept_start_.push_reserved(0);
+    for (uint32_t i = first_curve_[p]; i < first_curve_[p + 1]; ++i) {
+      start_[i] = samples_.start[order[i]];
+      closed_[i] = samples_.closed[order[i]];
+      for (const uint32_t k : kept_of_curve(samples_, order[i])) kept_.push_reserved(k);
+      kept_start_.push_reserved(static_cast<uint32_t>(kept_.size()) - first_kept_[p]);
+    }
+    first_kept_[p + 1] = static_cast<uint32_t>(kept_.size());
+  }
+  return {};
+}
+
+KeptSamples KeptParts::part(uint32_t p) const {
+  const uint32_t first = first_curve_[p], curves = first_curve_[p + 1] - first;
+  const uint32_t first_kept = first_kept_[p];
+  KeptSamples part = samples_;
+  part.start = start_.span().part(first, curves);
+  part.kept_start = kept_start_.span().part(first + p, curves + 1);
+  part.kept = kept_.span().part(first_kept, first_kept_[p + 1] - first_kept);
+  part.node = node_.span();
+  part.closed = closed_.span().part(first, curves);
+  return part;
+}
+
+/* Every node is of one part only, so one array of numbers serves all of them. */
+Status KeptParts::number_nodes() {
+  Array<uint32_t> number(node_.context());
+  TRY(number.assign(count_nodes(samples_), k_none));
+  TRY(node_.assign(samples_.node.size(), k_none));
+  for (uint32_t p = 0; p < count(); ++p) {
+    const KeptSamples own = part(p);
+    uint32_t nodes = 0;
+    for (uint32_t c = 0; c < own.closed.size(); ++c) {
+      for (const uint32_t k : kept_of_curve(own, c)) {
+        const uint32_t sample = own.start[c] + k, node = samples_.node[sample];
+        if (node == k_none) continue;
+        if (number[node] == k_none) number[node] = nodes++;
+        node_[sample] = number[node];
+      }
+    }
+  }
+  return {};
+}
+
+Status KeptParts::split(const KeptSamples& samples) {
+  samples_ = samples;
+  Array<uint32_t> order(start_.context());
+  TRY(sort_curves(&order));
+  TRY(copy_curves(order.span()));
+  return number_nodes();
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/kept_parts.cpp ======== */
+
+/* ======== begin src/network/patch_in_space.cpp ======== */
+namespace wireskin::network {
+
+/* Where the normals agree less with the axis of the border, what spreads linearly from it is flat: */
+/* the patch starts raised along them. */
+static constexpr double k_least_closing = 0.3;
+/* The coarse mesh has edges so much longer than wished, but about so many along the border's */
+/* length. */
+static constexpr double k_coarser = 4.0, k_edges_of_coarse_border = 60.0;
+
+bool has_needles(const SpaceMesh& mesh) {
+  constexpr double k_needle = 1e-5;
+  const Span<const Vec3> position = mesh.position.span();
+  for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
+    const Vec3 a = position[mesh.triangle[t + 1]] - position[mesh.triangle[t]];
+    const Vec3 b = position[mesh.triangle[t + 2]] - position[mesh.triangle[t]], c = b - a;
+    if (!(length(cross(a, b)) > k_needle * (dot(a, a) + dot(b, b) + dot(c, c)))) return true;
+  }
+  return false;
+}
+
+static mesh::Loops loops_of(const Border& border) {
+  return {border.start.span(), border.position.span(), border.normal.span()};
+}
+
+/* One round: `*sound` says whether it left the mesh fit for the next one. */
+static Status raise_once(const Border& border, uint32_t held, SpaceMesh* mesh, bool* sound) {
+  *sound = false;
+  if (has_needles(*mesh)) return {};
+  const Status raised = mesh::raise_dome(mesh->position.context(), loops_of(border), held,
+                                         mesh->triangle.span(), mesh->position.span());
+  if (raised.code == Code::not_positive_definite) return {};
+  TRY(raised);
+  *sound = !has_needles(*mesh);
+  return {};
+}
+
+static Status refine_and_raise(const Border& border, const mesh::HeldCurves& held, double spacing,
+                               int rounds, SpaceMesh* mesh, bool* sound) {
+  Context& context = mesh->position.context();
+  for (int round = 0; *sound && round < rounds; ++round) {
+    TRY(mesh::refine_loops(context, spacing, border.start.span(), held, &mesh->position,
+                           &mesh->triangle));
+    TRY(raise_once(border, held.vertices, mesh, sound));
+  }
+  return {};
+}
+
+static Status take_mesh(const Border& border, mesh::LoopMesh* made, SpaceMesh* mesh) {
+  TRY(mesh->position.copy(border.position.span()));
+  for (const Vec3& p : made->inner) TRY(mesh->position.push(p));
+  mesh->triangle = static_cast<Array<uint32_t>&&>(made->triangle);
+  return {};
+}
+
+static Status take_loop_mesh(const Border& border, double spacing, SpaceMesh* mesh) {
+  mesh::LoopMesh flat(mesh->position.context());
+  TRY(mesh::mesh_loops(mesh->position.context(), loops_of(border), spacing, &flat));
+  return take_mesh(border, &flat, mesh);
+}
+
+static Status take_band(const Border& border, double spacing, SpaceMesh* mesh) {
+  Context& context = mesh->position.context();
+  mesh::LoopMesh band(context);
+  TRY(mesh::mesh_band(context, loops_of(border), spacing, &band));
+  TRY(take_mesh(border, &band, mesh));
+  if (has_needles(*mesh)) return {};
+  TRY(mesh::refine_loops(context, spacing, border.start.span(), &mesh->position, &mesh->triangle));
+  mesh->band = !has_needles(*mesh);
+  return {};
+}
+
+Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh) {
+  constexpr int k_coarse_rounds = 2, k_fine_rounds = 1;
+  mesh->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
+  mesh->band = false;
+  if (mesh->raised && border.loops() == 2) {
+    TRY(take_band(border, spacing, mesh));
+    if (mesh->band) return {};
+  }
+  if (mesh->raised) {
+    const double coarse = larger(
+        spacing, smaller(k_coarser * spacing, border_length(border) / k_edges_of_coarse_border));
+    const mesh::HeldCurves held = {border.size(), {}};
+    bool sound = true;
+    TRY(take_loop_mesh(border, coarse, mesh));
+    TRY(raise_once(border, border.size(), mesh, &sound));
+    TRY(refine_and_raise(border, held, coarse, k_coarse_rounds, mesh, &sound));
+    TRY(refine_and_raise(border, held, spacing, k_fine_rounds, mesh, &sound));
+    if (sound) return {};
+  }
+  return take_loop_mesh(border, spacing, mesh);
+}
+
+Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
+                   SpaceMesh* mesh) {
+  constexpr int k_rounds = 2;
+  SpaceMesh raised(mesh->position.context());
+  TRY(raised.position.copy(mesh->position.span()));
+  TRY(raised.triangle.copy(mesh->triangle.span()));
+  bool sound = true;
+  TRY(raise_once(border, held.vertices, &raised, &sound));
+  TRY(refine_and_raise(border, held, spacing, k_rounds, &raised, &sound));
+  if (!sound) return {};
+  mesh->position = static_cast<Array<Vec3>&&>(raised.position);
+  mesh->triangle = static_cast<Array<uint32_t>&&>(raised.triangle);
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_in_space.cpp ======== */
+
+/* ======== begin src/network/rotation.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+struct Leaving {
+  uint32_t half_segment;
+  double angle;
+};
+
+/* The half-segment of a border that leaves a node with all curves of the surface, which follow it */
+/* counter-clockwise; and how far they are from the border at least. k_none where there are none, or */
+/* on both sides. */
+struct BorderSide {
+  uint32_t left = k_none;
+  double gap = 0.0;
+};
+
+}  /* namespace */
+
+static Status fail_at_node(Code code, const char* sentence, const Graph& graph, uint32_t node,
+                           uint32_t h) {
+  const Segment& segment = graph.segment_of(h);
+  const curves::Curve curve = graph.curve_of(h);
+  Place place;
+  place.node = graph.nodes[node].number;
+  place.curve = segment.curve;
+  place.sample = curve.sample[h % 2 == 0 ? segment.first_knot : segment.last_knot];
+  return fail(code, sentence, place);
+}
+
+/* How directions are taken: the tangent (0), a secant over that part of the shortest segment at the */
+/* node, or the chord to the next sample. */
+static constexpr double k_chord = -1.0;
+static constexpr double k_parts[] = {0.0, 1.0 / 32.0, 0.25, 0.5, 1.0, k_chord};
+/* More would be of no use where all that is wanted are different directions. */
+static constexpr int k_parts_for_order = 3;
+
+/* The direction in which half-segment h leaves its node. */
+static Vec3 direction(const Graph& graph, uint32_t h, double distance) {
+  const Segment& segment = graph.segment_of(h);
+  const curves::Curve curve = graph.curve_of(h);
+  const bool forward = h % 2 == 0;
+  const uint32_t knot = forward ? segment.first_knot : segment.last_knot;
+  if (distance == 0.0) {
+    const Vec3 tangent = tangent_at_knot(curve, knot);
+    return forward ? tangent : -tangent;
+  }
+  if (distance < 0.0) {
+    return curve.position.value[forward ? knot + 1 : knot - 1] - curve.position.value[knot];
+  }
+  const double s = forward ? curve.arc[knot] + distance : curve.arc[knot] - distance;
+  return point_at(curve, segment.first_knot, segment.last_knot, s).position -
+         curve.position.value[knot];
+}
+
+/* Grows with the angle from the x axis, counter-clockwise, from 0 to 4; no trigonometry needed. */
+static double diamond_angle(double x, double y) {
+  const double t = y / (std::fabs(x) + std::fabs(y));
+  if (x < 0.0) return 2.0 - t;
+  return y < 0.0 ? 4.0 + t : t;
+}
+
+static double shortest_length(const Graph& graph, Span<const Leaving> leaving) {
+  double shortest = -1.0;
+  for (const Leaving& l : leaving) {
+    const Segment& segment = graph.segment_of(l.half_segment);
+    const curves::Curve curve = graph.curve_of(l.half_segment);
+    const double length = curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
+    if (shortest < 0.0 || length < shortest) shortest = length;
+  }
+  return shortest;
+}
+
+/* Angles of all half-segments that leave a node, in the plane across its normal. */
+static Status measure_angles(const Graph& graph, uint32_t node, double distance,
+                             Span<Leaving> leaving) {
+  const Vec3& n = graph.nodes[node].normal;
+  const double ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
+  const Vec3 axis = ax <= ay && ax <= az ? Vec3{1, 0, 0} : ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 u = unit(reject(axis, n));
+  const Vec3 v = cross(n, u);
+  for (Leaving& l : leaving) {
+    const Vec3 d = direction(graph, l.half_segment, distance);
+    const double x = dot(d, u), y = dot(d, v);
+    constexpr double k_least_sine = 1e-3;
+    if (!(x * x + y * y > k_least_sine * k_least_sine * dot(d, d))) {
+      return fail_at_node(Code::tangent_normal, "the normal of the node is parallel to the curve",
+                          graph, node, l.half_segment);
+    }
+    l.angle = diamond_angle(x, y);
+  }
+  return {};
+}
+
+static bool all_differ(Span<const Leaving> sorted) {
+  constexpr double k_least_gap = 1e-6;
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    const bool wraps = i + 1 == sorted.size();
+    const double next = wraps ? sorted[0].angle + 4.0 : sorted[i + 1].angle;
+    if (sorted.size() > 1 && next - sorted[i].angle < k_least_gap) return false;
+  }
+  return true;
+}
+
+static Status sort_by_part(const Graph& graph, uint32_t node, double part, Span<Leaving> leaving) {
+  const double shortest = shortest_length(graph, leaving);
+  TRY(measure_angles(graph, node, part * shortest, leaving));
+  sort(leaving, [](const Leaving& a, const Leaving& b) {
+    return a.angle != b.angle ? a.angle < b.angle : a.half_segment < b.half_segment;
+  });
+  return {};
+}
+
+/* Sorts the half-segments that leave a node counter-clockwise. */
+static Status sort_round_node(const Graph& graph, uint32_t node, Span<Leaving> leaving) {
+  for (int k = 0; k < k_parts_for_order; ++k) {
+    TRY(sort_by_part(graph, node, k_parts[k], leaving));
+    if (all_differ(leaving)) return {};
+  }
+  return fail_at_node(Code::inconsistent_normals,
+                      "two curves leave the node in the same direction, seen along its normal: is one of "
+                      "them given twice?",
+                      graph, node, leaving[0].half_segment);
+}
+
+/* The two border half-segments of a node where there are just two of them; whether other ones leave */
+/* it, too. */
+static bool border_pair(const Graph& graph, Span<const Leaving> round, uint32_t* pair) {
+  uint32_t count = 0;
+  for (const Leaving& l : round) {
+    if (!graph.segment_of(l.half_segment).boundary) continue;
+    if (count < 2) pair[count] = l.half_segment;
+    ++count;
+  }
+  if (count != 2) pair[0] = pair[1] = k_none;
+  return count == 2 && round.size() > 2;
+}
+
+static BorderSide border_side(const Graph& graph, Span<const Leaving> sorted) {
+  const size_t n = sorted.size();
+  const auto at_border = [&](size_t i) {
+    return graph.segment_of(sorted[i % n].half_segment).boundary;
+  };
+  const auto gap = [&](size_t i) {
+    const double turn = sorted[(i + 1) % n].angle - sorted[i % n].angle;
+    return turn < 0.0 ? turn + 4.0 : turn;
+  };
+  BorderSide side;
+  for (size_t i = 0; i < n; ++i) {
+    if (!at_border(i) || at_border(i + 1) || !at_border(i + n - 1)) continue;
+    const double before = gap(i + n - 2), after = gap(i);
+    side = {sorted[i].half_segment, before < after ? before : after};
+  }
+  return side;
+}
+
+/* Tries other directions until all curves lie to the left of `left`, or of either border */
+/* half-segment for k_none; if nothing helps the order stays as it was. */
+static Status sort_at_border(const Graph& graph, uint32_t node, uint32_t left,
+                             Span<Leaving> leaving, Array<Leaving>* kept) {
+  TRY(kept->copy(leaving));
+  for (const double part : k_parts) {
+    if (!sort_by_part(graph, node, part, leaving).ok() || !all_differ(leaving)) continue;
+    const BorderSide side = border_side(graph, leaving);
+    if (side.left != k_none && (left == k_none || side.left == left)) return {};
+  }
+  for (size_t i = 0; i < leaving.size(); ++i) leaving[i] = (*kept)[i];
+  return {};
+}
+
+namespace {
+
+/* The half-segments that leave each node, in order. */
+struct Rotation {
+  Array<uint32_t> start;  /* of each node */
+  Array<Leaving> leaving;
+
+  explicit Rotation(Context& context) : start(context), leaving(context) {}
+  Span<Leaving> round(uint32_t node) {
+    return leaving.span().part(start[node], start[node + 1] - start[node]);
+  }
+};
+
+/* What the borders know: of each half-segment that leaves a node along a border, the other one */
+/* there; of each node the side of the curves; of each border segment whether it was visited. */
+struct Borders {
+  Array<uint32_t> other;
+  Array<BorderSide> side;
+  Array<uint8_t> visited;
+
+  explicit Borders(Context& context) : other(context), side(context), visited(context) {}
+};
+
+}  /* namespace */
+
+static Status list_borders(const Graph& graph, Rotation* rotation, Borders* borders) {
+  Array<Leaving> kept(borders->other.context());
+  TRY(borders->other.assign(2 * graph.segments.size(), k_none));
+  TRY(borders->side.assign(graph.nodes.size(), BorderSide{}));
+  TRY(borders->visited.assign(graph.segments.size(), 0));
+  for (uint32_t node = 0; node < graph.nodes.size(); ++node) {
+    const Span<Leaving> round = rotation->round(node);
+    uint32_t pair[2];
+    const bool meets_curves = border_pair(graph, round, pair);
+    if (pair[0] == k_none) continue;
+    borders->other[pair[0]] = pair[1];
+    borders->other[pair[1]] = pair[0];
+    if (!meets_curves) continue;
+    if (border_side(graph, round).left == k_none) {
+      TRY(sort_at_border(graph, node, k_none, round, &kept));
+    }
+    borders->side[node] = border_side(graph, round);
+  }
+  return {};
+}
+
+/* Calls visit(a, b, node) at each node of the border that begins with h, where half-segment a comes */
+/* in and b leaves, until the border ends or has come back. */
+template <typename Visit>
+static void walk_border(const Graph& graph, const Borders& borders, uint32_t h,
+                        const Visit& visit) {
+  uint32_t g = h;
+  do {
+    const uint32_t next = borders.other[opposite(g)];
+    if (next == k_none) return;
+    visit(g, next, graph.from(next));
+    g = next;
+  } while (g != h);
+}
+
+/* A border one side of which has the surface: the nodes that see it on the other side are sorted */
+/* again. */
+static Status agree_on_side(const Graph& graph, uint32_t first, Rotation* rotation,
+                            Borders* borders) {
+  uint32_t h = first;  /* where the border begins, if it does */
+  walk_border(graph, *borders, opposite(first),
+              [&](uint32_t, uint32_t b, uint32_t) { h = opposite(b); });
+  double left = 0.0;
+  borders->visited[h / 2] = 1;
+  walk_border(graph, *borders, h, [&](uint32_t a, uint32_t b, uint32_t node) {
+    const BorderSide& side = borders->side[node];
+    if (side.left == b) left += side.gap;
+    if (side.left == opposite(a)) left -= side.gap;
+    borders->visited[b / 2] = 1;
+  });
+  Array<Leaving> kept(borders->other.context());
+  Status status;
+  walk_border(graph, *borders, h, [&](uint32_t a, uint32_t b, uint32_t node) {
+    const uint32_t wanted = left > 0.0 ? b : opposite(a);
+    const uint32_t seen = borders->side[node].left;
+    if (seen == k_none || seen == wanted || !status.ok()) return;
+    status = sort_at_border(graph, node, wanted, rotation->round(node), &kept);
+  });
+  return status;
+}
+
+static Status sort_borders(const Graph& graph, Rotation* rotation) {
+  Borders borders(rotation->start.context());
+  TRY(list_borders(graph, rotation, &borders));
+  for (uint32_t s = 0; s < graph.segments.size(); ++s) {
+    if (!graph.segments[s].boundary || borders.visited[s] || graph.segments[s].from == k_none) {
+      continue;
+    }
+    TRY(agree_on_side(graph, 2 * s, rotation, &borders));
+    TRY(rotation->start.context().checkpoint());
+  }
+  return {};
+}
+
+/* In the order of half-segments round each node, not sorted yet. */
+static Status list_leaving(const Graph& graph, uint32_t halves, Rotation* rotation) {
+  Array<uint32_t> fill(rotation->start.context());
+  TRY(rotation->start.assign(graph.nodes.size() + 1, 0));
+  TRY(rotation->leaving.resize(halves));
+  for (uint32_t h = 0; h < halves; ++h) {
+    if (graph.from(h) != k_none) ++rotation->start[graph.from(h)];
+  }
+  starts_from_counts(rotation->start.span());
+  TRY(fill.copy(rotation->start.span()));
+  for (uint32_t h = 0; h < halves; ++h) {
+    if (graph.from(h) != k_none) rotation->leaving[fill[graph.from(h)]++] = {h, 0.0};
+  }
+  return {};
+}
+
+/* Sorts the half-segments round all nodes by their directions there. */
+static Status sort_nodes(const Graph& graph, Rotation* rotation, Array<Status>* faults) {
+  for (uint32_t node = 0; node < graph.nodes.size(); ++node) {
+    const Span<Leaving> round = rotation->round(node);
+    if (node % 4096 == 4095) TRY(rotation->start.context().checkpoint());
+    if (round.empty()) continue;
+    const Status status = sort_round_node(graph, node, round);
+    if (status.ok()) continue;
+    if (faults == nullptr) return status;
+    for (const Leaving& l : round) (*faults)[l.half_segment / 2] = status;
+  }
+  return {};
+}
+
+Status link_half_segments(const Graph& graph, Span<uint32_t> next, Array<Status>* faults) {
+  Context& context = graph.curves.start.context();
+  Rotation rotation(context);
+  TRY(list_leaving(graph, static_cast<uint32_t>(next.size()), &rotation));
+  TRY(sort_nodes(graph, &rotation, faults));
+  TRY(sort_borders(graph, &rotation));
+  for (uint32_t h = 0; h < next.size(); ++h) next[h] = h;  /* so it stays for curves without node */
+  for (uint32_t node = 0; node < graph.nodes.size(); ++node) {
+    const Span<const Leaving> round = rotation.round(node);
+    for (size_t i = 0; i < round.size(); ++i) {
+      const size_t clockwise = i == 0 ? round.size() - 1 : i - 1;
+      next[opposite(round[i].half_segment)] = round[clockwise].half_segment;
+    }
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/rotation.cpp ======== */
+
+/* ======== begin src/network/node_normals.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+/* A stretch of curve between two nodes, with the unit tangents of the curve at its ends. */
+struct Link {
+  uint32_t from, to;
+  Vec3 first, last;
+};
+
+/* Of the tips of the unit tangents that leave a node: number, sum and the sum of their squares. */
+struct Tips {
+  double count;
+  Vec3 sum;
+  Vec3 row[3];
+  Vec3 tangent[2];  /* the first two */
+};
+
+enum class Sense : uint8_t { unknown, reached, known };
+
+}  /* namespace */
+
+static Status find_links(const curves::Curves& curves, Array<Link>* links) {
+  for (uint32_t c = 0; c < curves.size(); ++c) {
+    const curves::Curve curve = curves[c];
+    uint32_t before = k_none;
+    for (uint32_t k = 0; k < curve.node.size(); ++k) {
+      if (curve.node[k] == k_none) continue;
+      if (before != k_none) {
+        TRY(links->push({curve.node[before], curve.node[k], unit(tangent_at_knot(curve, before)),
+                         unit(tangent_at_knot(curve, k))}));
+      }
+      before = k;
+    }
+  }
+  return {};
+}
+
+static void add_tip(const Vec3& tangent, Tips* tips) {
+  if (tips->count < 2.0) tips->tangent[tips->count > 0.0] = tangent;
+  tips->count += 1.0;
+  tips->sum += tangent;
+  tips->row[0] += tangent.x * tangent;
+  tips->row[1] += tangent.y * tangent;
+  tips->row[2] += tangent.z * tangent;
+}
+
+/* The eigenvector of the least eigenvalue of a symmetric matrix: the adjugate has it for its */
+/* greatest, and squaring leaves that alone. */
+static Vec3 least_eigenvector(const Vec3 (&row)[3]) {
+  Vec3 a[3] = {cross(row[1], row[2]), cross(row[2], row[0]), cross(row[0], row[1])};
+  for (int k = 0; k < 8; ++k) {
+    const double trace = a[0].x + a[1].y + a[2].z;
+    if (!(trace > 0.0)) return {};
+    Vec3 square[3];
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 r = (1.0 / trace) * a[i];
+      square[i] = (1.0 / trace) * (r.x * a[0] + r.y * a[1] + r.z * a[2]);
+    }
+    for (int i = 0; i < 3; ++i) a[i] = square[i];
+  }
+  const Vec3& xy = a[0].x >= a[1].y ? a[0] : a[1];
+  const double greatest = a[0].x >= a[1].y ? a[0].x : a[1].y;
+  return unit(greatest >= a[2].z ? xy : a[2]);
+}
+
+/* Any vector across a unit vector. */
+static Vec3 across(const Vec3& t) {
+  return unit(std::fabs(t.x) < 0.7 ? cross(t, {1, 0, 0}) : cross(t, {0, 1, 0}));
+}
+
+/* Two curves have only one order: any direction across them will do. */
+static Vec3 axis_of(const Tips& tips) {
+  if (tips.count < 3.0) {
+    const Vec3 normal = cross(tips.tangent[0], tips.tangent[1]);
+    return length(normal) > 0.1 ? unit(normal) : across(tips.tangent[0]);
+  }
+  const double share = 1.0 / tips.count;
+  const Vec3 row[3] = {tips.row[0] - share * tips.sum.x * tips.sum,
+                       tips.row[1] - share * tips.sum.y * tips.sum,
+                       tips.row[2] - share * tips.sum.z * tips.sum};
+  return least_eigenvector(row);
+}
+
+/* The cosine between the normal at one end of a link, carried along it to the other, and the axis */
+/* there, both taken across the curve; 0 where the curve turns back. */
+static double carried_cosine(const Vec3& normal, const Vec3& from, const Vec3& to,
+                             const Vec3& axis) {
+  const double sum = 1.0 + dot(from, to);
+  if (!(sum > 0.1)) return 0.0;
+  const Vec3 start = unit(reject(normal, from));
+  const Vec3 carried = start - (dot(to, start) / sum) * (from + to);
+  return dot(carried, unit(reject(axis, to)));
+}
+
+/* Gives every node its axis. Where the sense is known it is taken from the normal, and the normal */
+/* itself stays where it is complete or the axis tells something else. */
+static void find_axes(Span<const Tips> tips, Span<Node> nodes, Span<Sense> sense) {
+  constexpr double k_agrees = 0.05;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const bool known = nodes[i].normal != Vec3{};
+    sense[i] = known ? Sense::known : Sense::unknown;
+    if (nodes[i].certain && known) continue;
+    const Vec3 axis = axis_of(tips[i]);
+    const double cosine = dot(axis, nodes[i].normal);
+    if (!known) {
+      nodes[i].normal = axis;
+    } else if (tips[i].count > 2.0 && std::fabs(cosine) > k_agrees) {
+      nodes[i].normal = cosine > 0.0 ? axis : -axis;
+    }
+  }
+}
+
+/* Carries the sense of those that have one to their neighbours until nothing changes. */
+static Status spread(Context& context, Span<const Link> links, Span<Node> nodes,
+                     Span<Sense> sense) {
+  constexpr double k_least_cosine = 0.2;
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const Link& link : links) {
+      if ((sense[link.from] == Sense::unknown) == (sense[link.to] == Sense::unknown)) continue;
+      const bool forward = sense[link.to] == Sense::unknown;
+      const uint32_t to = forward ? link.to : link.from, from = forward ? link.from : link.to;
+      const double cosine = carried_cosine(nodes[from].normal, forward ? link.first : link.last,
+                                           forward ? link.last : link.first, nodes[to].normal);
+      if (!(std::fabs(cosine) > k_least_cosine)) continue;
+      if (cosine < 0.0) nodes[to].normal = -nodes[to].normal;
+      sense[to] = Sense::reached;
+      changed = true;
+    }
+    TRY(context.checkpoint());
+  }
+  return {};
+}
+
+static Status fail_without_sense(const Node& node) {
+  Place place;
+  place.node = node.number;
+  return fail(Code::missing_normals,
+              "nothing tells the outer side here: no normal is known at the node, nor do its "
+              "neighbours decide it",
+              place);
+}
+
+/* Turns the nodes just reached from `seed` outward, away from their middle. */
+static Status turn_outward(uint32_t seed, Span<Sense> sense, Span<Node> nodes) {
+  Vec3 middle;
+  double count = 0.0;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (sense[i] != Sense::reached) continue;
+    middle += nodes[i].position;
+    count += 1.0;
+  }
+  middle = (1.0 / count) * middle;
+  double outward = 0.0, whole = 0.0;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (sense[i] != Sense::reached) continue;
+    outward += dot(nodes[i].normal, nodes[i].position - middle);
+    whole += length(nodes[i].position - middle);
+  }
+  constexpr double k_clearly = 0.1;
+  if (!(std::fabs(outward) > k_clearly * whole)) return fail_without_sense(nodes[seed]);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (sense[i] != Sense::reached) continue;
+    sense[i] = Sense::known;
+    if (outward < 0.0) nodes[i].normal = -nodes[i].normal;
+  }
+  return {};
+}
+
+Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes) {
+  Context& context = curves.start.context();
+  Array<Link> links(context);
+  Array<Tips> tips(context);
+  Array<Sense> sense(context);
+  TRY(find_links(curves, &links));
+  TRY(tips.assign(nodes.size(), Tips{}));
+  TRY(sense.resize(nodes.size()));
+  for (const Link& link : links) {
+    add_tip(link.first, &tips[link.from]);
+    add_tip(-link.last, &tips[link.to]);
+  }
+  find_axes(tips.span(), nodes, sense.span());
+  TRY(spread(context, links.span(), nodes, sense.span()));
+  for (Sense& s : sense) s = s == Sense::reached ? Sense::known : s;
+  for (uint32_t i = 0; i < nodes.size(); ++i) {
+    if (sense[i] != Sense::unknown || tips[i].count < 3.0) continue;
+    for (const Link& link : links) {
+      const bool decided = (link.from == i && sense[link.to] == Sense::known) ||
+                           (link.to == i && sense[link.from] == Sense::known);
+      if (decided) return fail_without_sense(nodes[i]);
+    }
+    sense[i] = Sense::reached;
+    TRY(spread(context, links.span(), nodes, sense.span()));
+    TRY(turn_outward(i, sense.span(), nodes));
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/node_normals.cpp ======== */
+
+/* ======== begin src/network/partial.cpp ======== */
+namespace wireskin::network {
+
+namespace {
+
+/* New numbers, k_none for what goes. */
+struct Renumbering {
+  Array<uint32_t> segment, node;
+
+  explicit Renumbering(Context& context) : segment(context), node(context) {}
+};
+
+}  /* namespace */
+
+static Status renumber(const Network& network, Span<const Status> status, size_t nodes,
+                       Renumbering* fresh, Array<uint8_t>* sides) {
+  TRY(fresh->segment.assign(network.segment.size(), k_none));
+  TRY(fresh->node.assign(nodes, k_none));
+  TRY(sides->assign(network.segment.size(), 0));
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    if (!status[p].ok()) continue;
+    for (uint32_t h : network.cycle(p)) ++(*sides)[h / 2];
+    for (uint32_t s : network.inner[p]) (*sides)[s] = 2;
+    for (uint32_t v : network.point[p]) fresh->node[v] = 0;
+  }
+  uint32_t count = 0;
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    if ((*sides)[s] == 0) continue;
+    fresh->segment[s] = count++;
+    if (network.segment[s].from == k_none) continue;
+    fresh->node[network.segment[s].from] = fresh->node[network.segment[s].to] = 0;
+  }
+  count = 0;
+  for (uint32_t& number : fresh->node) {
+    if (number != k_none) number = count++;
+  }
+  return {};
+}
+
+static Status copy_patch(const Network& old, uint32_t p, const Renumbering& fresh,
+                         Network* result) {
+  for (uint32_t l = old.patch_start[p]; l < old.patch_start[p + 1]; ++l) {
+    for (uint32_t h : old.loop[l]) {
+      TRY(result->loop.item.push(2 * fresh.segment[h / 2] + h % 2));
+    }
+    TRY(result->loop.close());
+  }
+  for (uint32_t s : old.inner[p]) TRY(result->inner.item.push(fresh.segment[s]));
+  for (uint32_t v : old.point[p]) TRY(result->point.item.push(fresh.node[v]));
+  TRY(result->inner.close());
+  TRY(result->point.close());
+  TRY(result->ring.push(old.ring[p]));
+  return result->patch_start.push(result->loop.count());
+}
+
+/* Joins those ends of segments (2 s where s begins, 2 s + 1 where it ends) that patches join at */
+/* their nodes: half-segment h leaves at end h. `first` is scratch: of each node, an end that the */
+/* patch has there. */
+static void join_ends(const Network& network, Array<uint32_t>* first, DisjointSets* ends) {
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    for (uint32_t l = network.patch_start[p]; l < network.patch_start[p + 1]; ++l) {
+      const Span<const uint32_t> loop = network.loop[l];
+      for (size_t i = 0; i < loop.size(); ++i) {
+        const uint32_t h = loop[i], before = loop[i == 0 ? loop.size() - 1 : i - 1];
+        const Segment& segment = network.segment[h / 2];
+        if (segment.from == k_none) continue;
+        ends->unite(h, opposite(before));
+        (*first)[h % 2 == 0 ? segment.from : segment.to] = h;
+      }
+    }
+    for (uint32_t s : network.inner[p]) {
+      const uint32_t node[2] = {network.segment[s].from, network.segment[s].to};
+      for (uint32_t k = 0; k < 2; ++k) {
+        if (node[k] == k_none) continue;
+        uint32_t& known = (*first)[node[k]];
+        if (known == k_none) known = 2 * s + k;
+        ends->unite(known, 2 * s + k);
+      }
+    }
+    for (uint32_t h : network.cycle(p)) {
+      if (network.segment[h / 2].from == k_none) continue;
+      (*first)[network.segment[h / 2].from] = (*first)[network.segment[h / 2].to] = k_none;
+    }
+    for (uint32_t s : network.inner[p]) {
+      if (network.segment[s].from == k_none) continue;
+      (*first)[network.segment[s].from] = (*first)[network.segment[s].to] = k_none;
+    }
+  }
+}
+
+/* Gives each fan of patches round a node a node of its own. */
+static Status part_nodes(Array<Node>* nodes, Network* network) {
+  Context& context = nodes->context();
+  DisjointSets ends(context);
+  Array<uint32_t> first(context), own(context);
+  const uint32_t given = static_cast<uint32_t>(nodes->size());
+  const uint32_t count = 2 * static_cast<uint32_t>(network->segment.size());
+  TRY(ends.reset(count));
+  TRY(first.assign(given, k_none));
+  join_ends(*network, &first, &ends);
+  TRY(own.assign(count, k_none));  /* of each set of ends: its node */
+  Array<uint8_t> taken(context);
+  TRY(taken.assign(given, 0));
+  for (uint32_t e = 0; e < count; ++e) {
+    Segment& segment = network->segment[e / 2];
+    uint32_t& node = e % 2 == 0 ? segment.from : segment.to;
+    if (node == k_none) continue;
+    uint32_t& fan = own[ends.find(e)];
+    if (fan == k_none && !taken[node]) {
+      taken[node] = 1;
+      fan = node;
+    } else if (fan == k_none) {
+      fan = static_cast<uint32_t>(nodes->size());
+      TRY(nodes->push((*nodes)[node]));
+    }
+    node = fan;
+  }
+  return {};
+}
+
+Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
+                    Array<uint32_t>* original) {
+  Context& context = nodes->context();
+  Network result(context);
+  Renumbering fresh(context);
+  Array<uint8_t> sides(context);
+  TRY(renumber(*network, status, nodes->size(), &fresh, &sides));
+  for (uint32_t s = 0; s < network->segment.size(); ++s) {
+    if (fresh.segment[s] == k_none) continue;
+    Segment segment = network->segment[s];
+    segment.boundary = sides[s] == 1;
+    if (segment.from != k_none) {
+      segment.from = fresh.node[segment.from];
+      segment.to = fresh.node[segment.to];
+    }
+    TRY(result.segment.push(segment));
+  }
+  original->clear();
+  TRY(result.patch_start.push(0));
+  for (uint32_t p = 0; p < network->patches(); ++p) {
+    if (!status[p].ok()) continue;
+    TRY(original->push(p));
+    TRY(copy_patch(*network, p, fresh, &result));
+  }
+  size_t kept = 0;
+  for (size_t v = 0; v < nodes->size(); ++v) {
+    if (fresh.node[v] != k_none) (*nodes)[kept++] = (*nodes)[v];
+  }
+  nodes->shrink(kept);
+  *network = static_cast<Network&&>(result);
+  return part_nodes(nodes, network);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/partial.cpp ======== */
+
 /* ======== begin src/planar/polygon_mesh.cpp ======== */
 namespace wireskin::planar {
 
@@ -22003,131 +27382,6 @@ Status triangulate_side(SideTriangles* side) {
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/cavity_side.cpp ======== */
 
-/* ======== begin src/planar/insertion_order.cpp ======== */
-namespace wireskin::planar {
-
-struct OrderKey {
-  uint64_t key;
-  uint32_t index;
-};
-
-static constexpr int k_most_hilbert_bits = 20;
-static constexpr int k_digit_bits = 11;
-/* So many points in one cell are worth a finer grid. */
-static constexpr size_t k_crowd = 64;
-
-/* The place of the cell (x, y) along the Hilbert curve through 2^bits x 2^bits cells. */
-static uint64_t hilbert_place(uint32_t x, uint32_t y, int bits) {
-  uint64_t place = 0;
-  for (uint32_t half = 1u << (bits - 1); half > 0; half >>= 1) {
-    const uint32_t right = (x & half) != 0 ? 1u : 0u;
-    const uint32_t upper = (y & half) != 0 ? 1u : 0u;
-    place = 4 * place + ((3 * right) ^ upper);
-    /* The curve enters the lower quarters turned; turn the rest of the coordinates back. */
-    if (upper == 0) {
-      if (right != 0) {
-        x = ~x;
-        y = ~y;
-      }
-      const uint32_t kept = x;
-      x = y;
-      y = kept;
-    }
-  }
-  return place;
-}
-
-/* Three quarters of the points belong to the last round, three quarters of the rest to the one */
-/* before, and so on, by lot: drawn from the index, with the mixing of S. Vigna's splitmix64 (2015). */
-static uint64_t insertion_round(uint32_t index, uint64_t last_round) {
-  uint64_t z = (index + 1ull) * 0x9e3779b97f4a7c15ull;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  z ^= z >> 31;
-  uint64_t round = last_round;
-  for (; round > 0 && (z & 3) == 0; z >>= 2) --round;
-  return round;
-}
-
-/* Sorts by the lowest `bits` of the keys, equal ones by the order they are in: digit by digit from */
-/* the lowest, between the two arrays, and leaves the result in the first. */
-static Status sort_by_digits(Array<OrderKey>* keys, int bits) {
-  constexpr uint32_t k_digits = 1u << k_digit_bits;
-  const size_t count = keys->size();
-  Array<OrderKey> other(keys->context());
-  Array<uint32_t> starts(keys->context());
-  TRY(other.resize(count));
-  TRY(starts.resize(k_digits + 1));
-  for (int shift = 0; shift < bits; shift += k_digit_bits) {
-    const auto digit = [shift](const OrderKey& key) { return key.key >> shift & (k_digits - 1); };
-    for (uint32_t& start : starts) start = 0;
-    for (const OrderKey& key : *keys) ++starts[digit(key)];
-    starts_from_counts(starts.span());
-    for (const OrderKey& key : *keys) other[starts[digit(key)]++] = key;
-    Array<OrderKey> sorted = static_cast<Array<OrderKey>&&>(other);
-    other = static_cast<Array<OrderKey>&&>(*keys);
-    *keys = static_cast<Array<OrderKey>&&>(sorted);
-  }
-  return {};
-}
-
-/* How many points the fullest cell of a round has. */
-static size_t longest_run(Span<const OrderKey> keys) {
-  size_t longest = 0, first = 0;
-  for (size_t i = 0; i < keys.size(); ++i) {
-    if (keys[i].key != keys[first].key) first = i;
-    if (i - first >= longest) longest = i - first + 1;
-  }
-  return longest;
-}
-
-static Status sort_by_cells(Span<const Vec2> points, int hilbert_bits, uint64_t last_round,
-                            Array<OrderKey>* keys) {
-  Vec2 low = points[0];
-  Vec2 high = points[0];
-  for (const Vec2& p : points) {
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y};
-    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y};
-  }
-  const double extent = larger(high.x - low.x, high.y - low.y);
-  const double cells = static_cast<double>((1u << hilbert_bits) - 1);
-  const double step = extent > 0.0 ? cells / extent : 0.0;
-  for (uint32_t i = 0; i < points.size(); ++i) {
-    const Vec2 cell = step * (points[i] - low);
-    const uint64_t place =
-        hilbert_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y), hilbert_bits);
-    (*keys)[i] = {insertion_round(i, last_round) << (2 * hilbert_bits) | place, i};
-  }
-  int bits = 2 * hilbert_bits;
-  for (uint64_t round = last_round; round > 0; round >>= 1) ++bits;
-  return sort_by_digits(keys, bits);
-}
-
-Status insertion_order(Span<const Vec2> points, Array<uint32_t>* order) {
-  const size_t count = points.size();
-  Array<OrderKey> keys(order->context());
-  TRY(keys.resize(count));
-  TRY(order->resize(count));
-  if (count == 0) return {};
-  /* The first round should hold a few hundred points at most; more rounds would only lengthen */
-  /* walks. */
-  uint64_t last_round = 0;
-  int hilbert_bits = 6;
-  for (size_t rest = count; rest > 256; rest >>= 2) {
-    ++last_round;
-    ++hilbert_bits;
-  }
-  TRY(sort_by_cells(points, hilbert_bits, last_round, &keys));
-  if (longest_run(keys.span()) > k_crowd) {
-    TRY(sort_by_cells(points, k_most_hilbert_bits, last_round, &keys));
-  }
-  for (size_t i = 0; i < count; ++i) (*order)[i] = keys[i].index;
-  return {};
-}
-
-}  /* namespace wireskin::planar */
-/* ======== end src/planar/insertion_order.cpp ======== */
-
 /* ======== begin src/planar/lattice.cpp ======== */
 namespace wireskin::planar {
 
@@ -22455,7 +27709,7 @@ static Status try_edge(Refiner* r, uint32_t h, bool* done) {
 
 /* The triangle's edges, shortest first. */
 static void sort_edges(const Triangulation& t, uint32_t triangle, uint32_t edges[3]) {
-  double squared[3];
+  double squared[3] = {};
   for (uint32_t i = 0; i < 3; ++i) {
     const uint32_t h = 4 * triangle + i;
     const Vec2 along = t.points[t.end(h)] - t.points[t.start(h)];
@@ -22822,11 +28076,114 @@ Status find_arcs(Context& context, const GivenCurves& curves, uint32_t least_edg
 }  /* namespace wireskin::smooth */
 /* ======== end src/smooth/arcs.cpp ======== */
 
+/* ======== begin src/smooth/laplacian_pairs.cpp ======== */
+namespace wireskin::smooth {
+
+Status shifted_laplacian(const sparse::Csc& laplacian, Span<const uint32_t> unknown,
+                         uint32_t unknowns, double scale, Span<const double> shift,
+                         sparse::Csc* part) {
+  part->rows = part->cols = unknowns;
+  TRY(part->start.resize(size_t{unknowns} + 1));
+  TRY(part->row.reserve(laplacian.row.size()));
+  TRY(part->value.reserve(laplacian.row.size()));
+  part->row.clear();
+  part->value.clear();
+  uint32_t j = 0;
+  for (uint32_t column = 0; column < laplacian.cols; ++column) {
+    if (unknown[column] == k_none) continue;
+    part->start[j] = static_cast<uint32_t>(part->row.size());
+    for (uint32_t p = laplacian.start[column]; p < laplacian.start[column + 1]; ++p) {
+      const uint32_t i = unknown[laplacian.row[p]];
+      if (i == k_none || i < j) continue;
+      const double own = i == j && !shift.empty() ? shift[column] : 0.0;
+      part->row.push_reserved(i);
+      part->value.push_reserved(own - scale * laplacian.value[p]);
+    }
+    ++j;
+  }
+  part->start[j] = static_cast<uint32_t>(part->row.size());
+  return {};
+}
+
+/* The vertices with a number are the block's unknowns, in the same order. */
+Status LaplacianPairs::factor_block(const FairingBlocks& blocks, Span<const uint32_t> numbers,
+                                    double scale, Span<const double> shift, Block* block) {
+  Context& context = block->unknown.context();
+  sparse::Csc part(context);
+  Array<uint32_t> own(context), order(context), vertex(context);
+  const size_t n = numbers.size();
+  TRY(own.resize(n));
+  TRY(vertex.reserve(n));
+  TRY(block->unknown.reserve(n));
+  TRY(block->area.reserve(n));
+  block->unknown.clear();
+  block->area.clear();
+  for (uint32_t v = 0; v < n; ++v) {
+    own[v] = numbers[v] == k_none ? k_none : static_cast<uint32_t>(block->unknown.size());
+    if (own[v] == k_none) continue;
+    vertex.push_reserved(v);
+    block->unknown.push_reserved(numbers[v]);
+    block->area.push_reserved(blocks.area[v]);
+  }
+  const uint32_t unknowns = static_cast<uint32_t>(vertex.size());
+  TRY(block->value.resize(unknowns));
+  if (unknowns == 0) return {};
+  TRY(shifted_laplacian(blocks.laplacian, own.span(), unknowns, scale, shift, &part));
+  TRY(sparse::nested_dissection(part, {vertex.span(), blocks.places.position, blocks.places.patch},
+                                &order));
+  TRY(block->factor.analyse(part, order.span()));
+  order.free();
+  TRY(block->factor.factor(part));
+  block->factor.end_factoring();
+  return {};
+}
+
+Status LaplacianPairs::build(const FairingBlocks& blocks) {
+  Array<double> shift(u_.unknown.context());
+  const double length2 = blocks.smoothing_length * blocks.smoothing_length;
+  TRY(shift.resize(blocks.area.size()));
+  for (size_t v = 0; v < blocks.spring.size(); ++v) {
+    shift[v] = std::sqrt(blocks.spring[v] * blocks.area[v]);
+  }
+  TRY(factor_block(blocks, blocks.displacement, 1.0,
+                   blocks.spring.empty() ? Span<const double>{} : shift.span(), &u_));
+  for (size_t v = 0; v < shift.size(); ++v) shift[v] = 2.0 * blocks.area[v];
+  return factor_block(blocks, blocks.curvature, length2, shift.span(), &h_);
+}
+
+/* The block's part of y := (S - L)^-1 M (S - L)^-1 x. */
+Status LaplacianPairs::apply_block(Span<const double> x, Span<double> y, Block* block) {
+  const Span<double> value = block->value.span();
+  if (value.empty()) return {};
+  for (size_t i = 0; i < value.size(); ++i) value[i] = x[block->unknown[i]];
+  TRY(block->factor.solve(value, 1));
+  for (size_t i = 0; i < value.size(); ++i) value[i] *= block->area[i];
+  TRY(block->factor.solve(value, 1));
+  for (size_t i = 0; i < value.size(); ++i) y[block->unknown[i]] = value[i];
+  return {};
+}
+
+Status LaplacianPairs::apply(void* self, Span<const double> x, Span<double> y) {
+  LaplacianPairs& pairs = *static_cast<LaplacianPairs*>(self);
+  TRY(apply_block(x, y, &pairs.u_));
+  return apply_block(x, y, &pairs.h_);
+}
+
+}  /* namespace wireskin::smooth */
+/* ======== end src/smooth/laplacian_pairs.cpp ======== */
+
 /* ======== begin src/smooth/displace.cpp ======== */
 namespace wireskin::smooth {
 
 /* The weight of the pull of h towards zero at bare vertices. */
 static constexpr double k_bare_pull = 1e-6;
+
+/* Row weights and right-hand side of the least squares problem. */
+struct MinimumVariation::WeightedRows {
+  const sparse::Csc& rows;
+  Span<const double> weight;
+  Span<const double> rhs;
+};
 
 namespace {
 
@@ -23108,24 +28465,34 @@ static Status apply_normal_equations(void* self, Span<const double> x, Span<doub
   return equations.image.context().checkpoint();
 }
 
-Status MinimumVariation::solve_by_old_factor(const sparse::Csc& rows, Span<const double> weight,
-                                             Span<const double> rhs, Span<double> solution,
+/* Conjugate gradients from the last step's h, until the residual is what the size allows. What */
+/* the iteration cannot do shows in the residual. */
+Status MinimumVariation::iterate(const WeightedRows& system,
+                                 const sparse::LinearOperator& preconditioner, uint32_t most,
+                                 Span<double> solution, uint32_t* iterations) {
+  const double tolerance = unknowns_ <= 60000 ? 1e-12 : unknowns_ <= 600000 ? 1e-11 : 1e-10;
+  sparse::CgResult result;
+  NormalEquations equations(context_, system.rows, system.weight);
+  TRY(equations.image.resize(system.rows.rows));
+  TRY(context_.enter(Stage::solve));
+  for (size_t i = 0; i < solution.size(); ++i) solution[i] = start_.empty() ? 0.0 : start_[i];
+  const Status status =
+      sparse::conjugate_gradients(context_, {apply_normal_equations, &equations}, preconditioner,
+                                  system.rhs, solution, {tolerance, most}, &result);
+  *iterations = result.iterations;
+  residual_ = result.residual;
+  return status.code == Code::not_positive_definite ? Status{} : status;
+}
+
+Status MinimumVariation::solve_by_old_factor(const WeightedRows& system, Span<double> solution,
                                              bool* solved) {
   /* A factorisation costs as much as some ten to sixty solves, so what is nearly good is accepted. */
   constexpr double k_good_enough = 1e-9;
-  const sparse::CgOptions options = {1e-10, 40};
-  sparse::CgResult result;
-  NormalEquations equations(context_, rows, weight);
-  TRY(equations.image.resize(rows.rows));
-  TRY(context_.enter(Stage::solve));
-  for (double& x : solution) x = 0.0;
-  const Status status = sparse::conjugate_gradients(context_, {apply_normal_equations, &equations},
-                                                    sparse::inverse_operator(factor_), rhs,
-                                                    solution, options, &result);
-  *solved = status.ok() && result.residual <= k_good_enough;
-  iterations_ += result.iterations;
-  residual_ = result.residual;
-  return status.code == Code::not_positive_definite ? Status{} : status;
+  uint32_t iterations = 0;
+  TRY(iterate(system, sparse::inverse_operator(factor_), 40, solution, &iterations));
+  *solved = residual_ <= k_good_enough;
+  iterations_ += iterations;
+  return {};
 }
 
 /* By vertices, so that u and h of a vertex stay together. */
@@ -23142,16 +28509,21 @@ Status MinimumVariation::order_unknowns(const DisplaceInput& input, const sparse
   return sparse::nested_dissection(matrix, {vertex.span(), input.position, patch.span()}, order);
 }
 
-Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const sparse::Csc& rows,
-                                             Span<const double> weight, Span<const double> rhs,
+static Status no_room_for_fairing() {
+  return fail(Code::memory_cap,
+              "the memory cap leaves no room for the factor of the fairing; `stanko` needs less");
+}
+
+Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const WeightedRows& system,
                                              Span<double> solution) {
+  const sparse::Csc& rows = system.rows;
   sparse::Csc transposed(context_), matrix(context_);
   Array<uint32_t> all(context_), order(context_);
   TRY(sparse::transpose(rows, &transposed));
   TRY(all.resize(rows.cols));
   for (uint32_t j = 0; j < rows.cols; ++j) all[j] = j;
-  TRY(sparse::weighted_product(transposed, weight, rows, all.span(), rows.cols, sparse::Part::lower,
-                               &matrix));
+  TRY(sparse::weighted_product(transposed, system.weight, rows, all.span(), rows.cols,
+                               sparse::Part::lower, &matrix));
   transposed.row.free();
   transposed.value.free();
   TRY(context_.enter(Stage::factor));
@@ -23159,22 +28531,45 @@ Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const s
   TRY(factor_.analyse(matrix, order.span()));
   order.free();
   matrix.row.free();
-  if (factor_.factor_bytes() > context_.room_bytes()) {
-    return fail(Code::memory_cap,
-                "the memory cap leaves no room for the factor of the fairing; `stanko` needs less");
-  }
+  if (factor_.factor_bytes() > context_.room_bytes()) return no_room_for_fairing();
   Status factored = factor_.factor(matrix);
   factored.place = {};  /* a column of ours means nothing to the caller */
   TRY(factored);
   ++factorisations_;
   bool solved = false;
-  TRY(solve_by_old_factor(rows, weight, rhs, solution, &solved));
+  TRY(solve_by_old_factor(system, solution, &solved));
   /* Short of the tolerance the solution may still serve; one that is no number may not. */
   if (!solved && !(residual_ < 1.0)) {
     return fail(Code::not_positive_definite,
                 "the linear system cannot be solved in double precision");
   }
   return {};
+}
+
+/* The preconditioner is made once, for the mesh of the first step that needs it. */
+Status MinimumVariation::solve_by_pairs(const DisplaceInput& input, const sparse::Csc& laplacian,
+                                        Span<const double> area, const WeightedRows& system,
+                                        Span<double> solution) {
+  constexpr uint32_t k_most_iterations = 5000;
+  constexpr double k_good_enough = 1e-6;
+  if (!iterative_) {
+    Array<uint32_t> patch(context_);
+    TRY(patch.assign(input.position.size(), 0));
+    mesh::patches_of_vertices(input.triangle, input.patch, patch.span());
+    const size_t n = input.position.size(), springs = system.rows.rows - 2 * n;
+    TRY(pairs_.build({laplacian,
+                      area,
+                      input.soft.any() ? system.weight.part(springs, n) : Span<const double>{},
+                      displacement_.span(),
+                      curvature_.span(),
+                      input.smoothing_length,
+                      {input.position, patch.span()}}));
+    iterative_ = true;
+  }
+  uint32_t iterations = 0;
+  TRY(iterate(system, pairs_.linear_operator(), k_most_iterations, solution, &iterations));
+  context_.count_iterations(iterations);
+  return residual_ <= k_good_enough ? Status{} : no_room_for_fairing();
 }
 
 Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Span<double> step) {
@@ -23207,13 +28602,24 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
       rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
     }
   }
+  const WeightedRows system = {rows, weight.span(), rhs.span()};
   bool solved = false;
-  if (factorisations_ > 0) {
-    TRY(solve_by_old_factor(rows, weight.span(), rhs.span(), solution.span(), &solved));
+  if (factorisations_ > 0 && !iterative_) {
+    TRY(solve_by_old_factor(system, solution.span(), &solved));
   }
-  if (!solved) TRY(solve_by_new_factor(input, rows, weight.span(), rhs.span(), solution.span()));
+  if (!solved && !iterative_) {
+    const Status status = solve_by_new_factor(input, system, solution.span());
+    solved = status.ok();
+    if (status.code != Code::memory_cap) TRY(status);
+  }
+  if (!solved) {
+    factor_ = sparse::Cholesky(context_);
+    TRY(solve_by_pairs(input, laplacian, area.span(), system, solution.span()));
+  }
+  TRY(start_.copy(solution.span()));
   for (uint32_t v = 0; v < n; ++v) {
     step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
+    if (!input.held[v]) start_[displacement_[v]] = 0.0;
   }
   return {};
 }
@@ -24604,9 +30010,9 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   mesh::patches_of_vertices(piece.triangle, surface->patch.span(), vertex_patch.span());
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
-    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
-                                   piece.on_border, start.metric, piece.soft,     piece.bare,
-                                   places,          start.spent};
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve,    piece.held,
+                                   piece.on_border, start.metric, piece.soft,        piece.bare,
+                                   places,          start.spent,  start.spent_places};
     return smooth::smooth(context, domain, method, {piece.position, piece.normal},
                           &counts->residual);
   }
@@ -24952,10 +30358,75 @@ Status verify_triangles(Context& context, const Surface& surface) {
 }  /* namespace wireskin */
 /* ======== end src/surface/verify.cpp ======== */
 
+/* ======== begin src/surface/flow_measure.cpp ======== */
+namespace wireskin {
+
+namespace {
+
+/* Where on the arcs a vertex of theirs lies: between two places of Samples::at. */
+struct ArcPlace {
+  uint32_t first, last;  /* of its arc; equal: it is on none */
+  uint32_t before;
+};
+
+}  /* namespace */
+
+static Status place_vertices(const flow::Flow& flow, Array<ArcPlace>* places) {
+  const flow::Arcs& arcs = flow.arcs;
+  const flow::Samples& samples = flow.samples;
+  TRY(places->assign(arcs.vertex.size(), ArcPlace{0, 0, 0}));
+  for (uint32_t a = 0; a < arcs.size(); ++a) {
+    const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
+    uint32_t at = first;
+    for (uint32_t i = arcs.start[a]; i < arcs.start[a + 1]; ++i) {
+      while (at + 1 < last && samples.along[at + 1] <= arcs.along[i]) ++at;
+      (*places)[arcs.path[i]] = {first, last, at};
+    }
+  }
+  return {};
+}
+
+static double square_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a, e = p - a;
+  const double square = dot(d, d);
+  const double share = square > 0.0 ? smaller(larger(dot(d, e) / square, 0.0), 1.0) : 0.0;
+  const Vec3 across = e - share * d;
+  return dot(across, across);
+}
+
+Status measure_given(const flow::Flow& flow, Span<const Vec3> given, Span<const uint32_t> vertex_of,
+                     Surface* surface) {
+  Array<ArcPlace> places(surface->position.context());
+  TRY(place_vertices(flow, &places));
+  double greatest = 0.0, sum = 0.0;
+  for (size_t s = 0; s < given.size(); ++s) {
+    const ArcPlace& place = places[flow.arcs.sample_vertex[s]];
+    if (place.first == place.last) continue;
+    /* Noise may have brought the sample beside a neighbour of its edge. */
+    const uint32_t low = place.before > place.first ? place.before - 1 : place.first;
+    const uint32_t high = place.before + 2 < place.last ? place.before + 2 : place.last;
+    double least = DBL_MAX;
+    for (uint32_t i = low; i < high; ++i) {
+      const Vec3& a = surface->position[vertex_of[flow.samples.at[i]]];
+      const Vec3& b = surface->position[vertex_of[flow.samples.at[i + 1]]];
+      least = smaller(least, square_to_edge(given[s], a, b));
+    }
+    greatest = larger(greatest, least);
+    sum += least;
+  }
+  surface->counts.greatest_distance = std::sqrt(greatest);
+  if (!given.empty())
+    surface->counts.mean_square_distance = sum / static_cast<double>(given.size());
+  return {};
+}
+
+}  /* namespace wireskin */
+/* ======== end src/surface/flow_measure.cpp ======== */
+
 /* ======== begin src/api.cpp ======== */
-/* The C boundary: checks the caller's arrays, scales them, runs the pipeline, undoes the scaling */
-/* and fills result and report. Only this file and those in api/ see both the public header and the */
-/* inside. */
+/* The C boundary of surfaces: checks the caller's arrays, scales them, runs the pipeline, undoes */
+/* the scaling and fills result and report. Only this file and those in api/ see both the public */
+/* header and the inside. */
 
 namespace wireskin::api {
 
@@ -24964,281 +30435,6 @@ static_assert(static_cast<int>(Code::not_positive_definite) == WSK_ERROR_NOT_POS
 static_assert(static_cast<int>(Code::open_network) == WSK_ERROR_OPEN_NETWORK);
 static_assert(static_cast<int>(Stage::result) == WSK_STAGE_RESULT);
 static_assert(static_cast<int>(smooth::Method::fair) == WSK_METHOD_FAIR);
-
-/* ---- Options and report ------------------------------------------------------------------------- */
-
-static void* allocate_by_malloc(size_t bytes, void*) {
-  return std::malloc(bytes);
-}
-static void release_by_free(void* memory, size_t, void*) {
-  std::free(memory);
-}
-
-Status read_options(const wsk_options* given, wsk_options* options) {
-  wsk_options_init(options, sizeof *options);
-  if (given == nullptr) return {};
-  if (given->size < k_options_size) {
-    return fail(Code::bad_argument, "the options are not initialised: call wsk_options_init first");
-  }
-  std::memcpy(options, given, least(given->size, sizeof *options));
-  if (options->method < 0 || options->method >= WSK_METHOD_COUNT) {
-    return fail(Code::bad_argument, "the options name an unknown method");
-  }
-  if (!(options->spacing >= 0.0 && options->spacing - options->spacing == 0.0)) {
-    return fail(Code::bad_argument, "the spacing is negative or not finite");
-  }
-  if (options->smoothing < 0 || options->smoothing >= WSK_SMOOTHING_COUNT) {
-    return fail(Code::bad_argument, "the options name an unknown smoothing");
-  }
-  if (!(options->noise >= 0.0 && options->noise - options->noise == 0.0)) {
-    return fail(Code::bad_argument, "the noise is negative or not finite");
-  }
-  if (!(options->soft >= 0.0 && options->soft - options->soft == 0.0)) {
-    return fail(Code::bad_argument, "the cutoff length is negative or not finite");
-  }
-  if ((options->allocate == nullptr) != (options->release == nullptr)) {
-    return fail(Code::bad_argument, "the options have an allocate or a release without the other");
-  }
-  return {};
-}
-
-Allocator allocator_of(const wsk_options& options) {
-  if (options.allocate == nullptr) return {allocate_by_malloc, release_by_free, nullptr};
-  return {options.allocate, options.release, options.allocator_user};
-}
-
-Callbacks callbacks_of(const wsk_options& options) {
-  return {options.cancel, options.cancel_user, options.progress,     options.progress_user,
-          options.now,    options.now_user,    options.parallel_for, options.parallel_for_user};
-}
-
-static void report_status(const Status& status, wsk_report* report) {
-  report->status = static_cast<wsk_status>(status.code);
-  report->sentence = status.sentence;
-  report->curve = status.place.curve;
-  report->sample = status.place.sample;
-  report->node = status.place.node;
-  report->patch = status.place.patch;
-  report->vertex = status.place.vertex;
-  report->triangle = status.place.triangle;
-}
-
-void report_counts(const Counts& counts, const Scale& unscale, wsk_report* report) {
-  report->curves = counts.curves;
-  report->nodes = counts.nodes;
-  report->segments = counts.segments;
-  report->patches = counts.patches;
-  report->vertices = counts.vertices;
-  report->free_vertices = counts.free_vertices;
-  report->triangles = counts.triangles;
-  report->components = counts.components;
-  report->boundary_loops = counts.boundary_loops;
-  report->euler_characteristic = counts.euler_characteristic;
-  report->spacing = unscale(counts.spacing);
-  report->min_angle_deg = counts.least_angle;
-  report->residual = counts.residual;
-  report->noise_position = unscale(counts.noise.sigma_position);
-  report->noise_normal = counts.noise.sigma_normal;
-  report->cg_iterations = counts.iterations;
-  report->minimal_area_patches = counts.minimal_area_patches;
-  report->guarded_patches = counts.guarded_patches;
-  report->constraint_distance_max = unscale(counts.greatest_distance);
-  report->constraint_distance_rms = unscale(std::sqrt(counts.mean_square_distance));
-  report->normal_deviation_mean_deg = counts.normal_deviation.mean;
-  report->normal_deviation_max_deg = counts.normal_deviation.greatest;
-  report->dihedral_mean_deg = counts.dihedral.mean;
-  report->dihedral_max_deg = counts.dihedral.greatest;
-  report->failed_patches = counts.failed_patches;
-  report->ambiguous_patches = counts.ambiguous_patches;
-  report->first_ambiguous_patch = counts.first_ambiguous_patch;
-}
-
-void report_costs(Context& context, wsk_report* report) {
-  context.stop_clock();
-  report->stage = static_cast<wsk_stage>(context.stage());
-  report->peak_bytes = context.peak_bytes();
-  report->factorisations = context.factorisations();
-  report->cg_iterations += context.iterations();
-  report->solver = context.is_iterative() ? WSK_SOLVER_ITERATIVE : WSK_SOLVER_DIRECT;
-  for (int s = 0; s < WSK_STAGE_COUNT; ++s) {
-    report->stage_ms[s] = context.milliseconds(s);
-    report->total_ms += report->stage_ms[s];
-  }
-}
-
-/* Copies the report out, as much of it as the caller's version has. */
-wsk_status finish(const Status& status, wsk_report* report, wsk_report* out) {
-  report_status(status, report);
-  if (out != nullptr) {
-    const size_t size = out->size;
-    if (size < k_report_size) return WSK_ERROR_BAD_ARGUMENT;
-    std::memcpy(out, report, least(size, sizeof *report));
-    out->size = size;
-  }
-  return report->status;
-}
-
-/* ---- Input -------------------------------------------------------------------------------------- */
-
-static bool has_nan(const Vec3& a) {
-  return a.x != a.x || a.y != a.y || a.z != a.z;
-}
-static bool finite(const Vec3& a) {
-  return a.x - a.x == 0.0 && a.y - a.y == 0.0 && a.z - a.z == 0.0;
-}
-
-double greatest_component(const Vec3& a) {
-  const double x = std::fabs(a.x), y = std::fabs(a.y), z = std::fabs(a.z);
-  const double xy = x > y ? x : y;
-  return xy > z ? xy : z;
-}
-
-static Status check_finite(const Vec3& a, const char* not_a_number, const char* infinite,
-                           const Place& place) {
-  if (has_nan(a)) return fail(Code::not_a_number, not_a_number, place);
-  if (!finite(a)) return fail(Code::infinite, infinite, place);
-  return {};
-}
-
-/* One position and normal, checked; the normal comes out unit whatever its length was. */
-Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position) {
-  *position = rows[i];
-  return check_finite(*position, "the position is not a number", "the position is infinite", place);
-}
-
-Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal) {
-  const Vec3 given = rows[i];
-  TRY(check_finite(given, "the normal is not a number", "the normal is infinite", place));
-  const double greatest = greatest_component(given);
-  if (greatest == 0.0) return fail(Code::zero_normal, "the normal has zero length", place);
-  /* Near one first, or the squares of very long and very short normals overflow and underflow. */
-  *normal = unit(Scale(-binary_exponent(greatest))(given));
-  return {};
-}
-
-/* The power of two that brings the extent of the points to one half up to one. */
-Status find_scale(Span<const Vec3> points, int* exponent) {
-  Vec3 low = points[0], high = points[0];
-  for (const Vec3& p : points) {
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
-    high = {p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z};
-  }
-  const Vec3 extent = high - low;
-  if (!finite(extent)) {
-    return fail(Code::infinite, "the positions span more than a double can hold");
-  }
-  /* Points that are all one place have no extent; how far out they lie serves as well. */
-  double greatest = greatest_component(extent);
-  if (greatest == 0.0) greatest = greatest_component(points[0]);
-  *exponent = greatest > 0.0 ? binary_exponent(greatest) : 0;
-  return {};
-}
-
-struct CurveStorage {
-  Array<uint32_t> start;
-  Array<Vec3> position, normal;
-  Array<uint32_t> number;
-  Array<uint8_t> closed, boundary;
-  Array<double> soft;
-  Array<uint8_t> sharp;  /* empty where no curve is */
-  Array<Vec3> right;
-
-  explicit CurveStorage(Context& context)
-      : start(context),
-        position(context),
-        normal(context),
-        number(context),
-        closed(context),
-        boundary(context),
-        soft(context),
-        sharp(context),
-        right(context) {}
-};
-
-static Status count_samples(const wsk_curve* curves, size_t count, size_t* total, bool* sharp) {
-  *total = 0;
-  *sharp = false;
-  for (size_t c = 0; c < count; ++c) {
-    Place place;
-    place.curve = static_cast<uint32_t>(c);
-    const wsk_curve& curve = curves[c];
-    if (curve.sample_count == 0) {
-      return fail(Code::too_few_samples, "the curve has no samples", place);
-    }
-    if (curve.sample_count >= k_none - *total) {
-      return fail(Code::too_large, "too many samples for 32-bit indices", place);
-    }
-    if (curve.positions == nullptr) {
-      return fail(Code::bad_argument, "the curve has no positions", place);
-    }
-    *sharp = *sharp || curve.sharp != 0;
-    if (curve.normals == nullptr && curve.sharp == 0 && curve.sample_count != 1) {
-      return fail(Code::missing_normals, "the curve has no normals", place);
-    }
-    if (curve.soft - curve.soft != 0.0) {
-      return fail(Code::bad_argument, "the cutoff length of the curve is not finite", place);
-    }
-    *total += curve.sample_count;
-  }
-  return {};
-}
-
-/* A normal of one side of a sharp curve; zero where the side has none. */
-static Status read_side_normal(const double* data, size_t stride, size_t i, const Place& place,
-                               Vec3* normal) {
-  *normal = Vec3{};
-  return data == nullptr ? Status{} : read_normal({data, stride}, i, place, normal);
-}
-
-static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* storage) {
-  const Rows positions = {curve.positions, curve.position_stride};
-  for (size_t i = 0; i < curve.sample_count; ++i) {
-    Place place;
-    place.curve = index;
-    place.sample = static_cast<uint32_t>(i);
-    Vec3 position, normal;
-    TRY(read_position(positions, i, place, &position));
-    TRY(read_side_normal(curve.normals, curve.normal_stride, i, place, &normal));
-    storage->position.push_reserved(position);
-    storage->normal.push_reserved(normal);
-    storage->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
-    if (storage->sharp.empty()) continue;
-    const double* right = curve.sharp != 0 ? curve.normals_right : nullptr;
-    TRY(read_side_normal(right, curve.normal_right_stride, i, place, &normal));
-    storage->right.push_reserved(normal);
-  }
-  storage->closed.push_reserved(curve.closed != 0);
-  storage->boundary.push_reserved(curve.boundary != 0);
-  storage->soft.push_reserved(curve.soft);
-  storage->start.push_reserved(static_cast<uint32_t>(storage->position.size()));
-  return {};
-}
-
-static Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage) {
-  size_t total = 0;
-  if (count == 0) return fail(Code::empty, "there are no curves");
-  if (curves == nullptr) return fail(Code::bad_argument, "the curves are null");
-  if (count >= k_none) return fail(Code::too_large, "too many curves for 32-bit indices");
-  bool sharp = false;
-  TRY(count_samples(curves, count, &total, &sharp));
-  TRY(storage->start.reserve(count + 1));
-  TRY(storage->closed.reserve(count));
-  TRY(storage->boundary.reserve(count));
-  TRY(storage->soft.reserve(count));
-  TRY(storage->position.reserve(total));
-  TRY(storage->normal.reserve(total));
-  TRY(storage->number.reserve(total));
-  if (sharp) {
-    TRY(storage->sharp.resize(count));
-    TRY(storage->right.reserve(total));
-    for (size_t c = 0; c < count; ++c) storage->sharp[c] = curves[c].sharp != 0;
-  }
-  storage->start.push_reserved(0);
-  for (size_t c = 0; c < count; ++c) {
-    TRY(read_curve(curves[c], static_cast<uint32_t>(c), storage));
-  }
-  return {};
-}
 
 struct MeshStorage {
   Array<Vec3> position, normal;
@@ -25275,98 +30471,25 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
   return {};
 }
 
-/* ---- Output ------------------------------------------------------------------------------------- */
-
-static const uint32_t* write_indices(unsigned char* block, size_t offset,
-                                     const Array<uint32_t>& values) {
-  if (values.empty()) return nullptr;
-  std::memcpy(block + offset, values.data(), values.size() * sizeof(uint32_t));
-  return reinterpret_cast<const uint32_t*>(block + offset);
-}
-
-Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out) {
-  const size_t n = surface.position.size(), triangles = surface.patch.size();
-  Layout layout(sizeof(wsk_surface));
-  const size_t positions = layout.add_array<double>(3 * n);
-  const size_t normals = layout.add_array<double>(3 * n);
-  const size_t curvature = layout.add_array<double>(n);
-  const size_t gaussian = layout.add_array<double>(n);
-  const size_t constraint = layout.add_array<double>(3 * n);
-  const size_t vertex_curve = layout.add_array<uint32_t>(n);
-  const size_t triangle = layout.add_array<uint32_t>(3 * triangles);
-  const size_t patch = layout.add_array<uint32_t>(triangles);
-  const size_t edges = layout.add_array<uint32_t>(surface.curve_edge.size());
-  const size_t edge_curve = layout.add_array<uint32_t>(surface.curve_edge_curve.size());
-  const bool has_guard = !surface.patch_guarded.empty() && !surface.curve_edge.empty();
-  const size_t guarded = layout.add_array<uint8_t>(has_guard ? surface.patch_guarded.size() : 0);
-  const size_t listed = surface.patches.status.size();
-  const size_t sentences = layout.add_array<const char*>(listed);
-  const size_t statuses = layout.add_array<wsk_status>(listed);
-  const size_t ways = layout.add_array<uint8_t>(listed);
-  const size_t patch_start = layout.add_array<uint32_t>(surface.patches.curve_start.size());
-  const size_t patch_curve = layout.add_array<uint32_t>(surface.patches.curve.size());
-  void* memory = nullptr;
-  TRY(context.allocate(layout.bytes(), 1, &memory));
-  unsigned char* block = static_cast<unsigned char*>(memory);
-  const Scale none(0), lengths(exponent), curvatures(-exponent);
-  wsk_surface* handle = static_cast<wsk_surface*>(memory);
-  handle->allocator = context.allocator();
-  handle->bytes = layout.bytes();
-  wsk_surface_view& view = handle->view;
-  view.size = sizeof view;
-  view.vertex_count = static_cast<uint32_t>(n);
-  view.triangle_count = static_cast<uint32_t>(triangles);
-  view.patch_count = surface.counts.patches;
-  view.curve_edge_count = static_cast<uint32_t>(surface.curve_edge_curve.size());
-  view.positions = write_vectors(block, positions, surface.position.span(), lengths);
-  view.normals = write_vectors(block, normals, surface.normal.span(), none);
-  view.constraint_normals =
-      write_vectors(block, constraint, surface.constraint_normal.span(), none);
-  double* h = reinterpret_cast<double*>(block + curvature);
-  for (size_t v = 0; v < n; ++v) h[v] = curvatures(surface.mean_curvature[v]);
-  view.mean_curvature = h;
-  double* k = reinterpret_cast<double*>(block + gaussian);
-  for (size_t v = 0; v < n; ++v) k[v] = curvatures(curvatures(surface.gaussian_curvature[v]));
-  view.gaussian_curvature = k;
-  view.vertex_curve = write_indices(block, vertex_curve, surface.vertex_curve);
-  view.triangles = write_indices(block, triangle, surface.triangle);
-  view.triangle_patch = write_indices(block, patch, surface.patch);
-  view.curve_edges = write_indices(block, edges, surface.curve_edge);
-  view.curve_edge_curve = write_indices(block, edge_curve, surface.curve_edge_curve);
-  view.patch_guarded = nullptr;
-  if (has_guard) {
-    std::memcpy(block + guarded, surface.patch_guarded.data(), surface.patch_guarded.size());
-    view.patch_guarded = block + guarded;
+/* Far from the origin doubles are coarse, and what then fails does not look like it. */
+static Status explain_rounding(const Status& status, Span<const Vec3> positions, double spacing) {
+  constexpr double k_rounding = 1.0 / 4503599627370496.0, k_most = 1.0 / 1024.0;  /* of the spacing */
+  const bool geometric =
+      status.code == Code::zero_length_curve || status.code == Code::duplicate_samples ||
+      status.code == Code::node_mismatch || status.code == Code::tangent_normal ||
+      status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
+      status.code == Code::bad_mesh || status.code == Code::not_positive_definite;
+  if (!geometric || spacing == 0.0) return status;
+  double farthest = 0.0;
+  for (const Vec3& p : positions) {
+    const double here = greatest_component(p);
+    farthest = here > farthest ? here : farthest;
   }
-  const char** sentence = reinterpret_cast<const char**>(block + sentences);
-  wsk_status* status = reinterpret_cast<wsk_status*>(block + statuses);
-  for (size_t p = 0; p < listed; ++p) {
-    sentence[p] = surface.patches.status[p].sentence;
-    status[p] = static_cast<wsk_status>(surface.patches.status[p].code);
-    block[ways + p] = surface.patches.way[p];
-  }
-  /* Surfaces of meshes and of flows have patches that no list says more of. */
-  view.patch_sentence = listed > 0 ? sentence : nullptr;
-  view.patch_status = listed > 0 ? status : nullptr;
-  view.patch_way = listed > 0 ? block + ways : nullptr;
-  view.patch_curve_start = write_indices(block, patch_start, surface.patches.curve_start);
-  view.patch_curves = write_indices(block, patch_curve, surface.patches.curve);
-  *out = handle;
-  return context.progress(1.0);
-}
-
-/* ---- The two tasks ------------------------------------------------------------------------------ */
-
-/* fair looks for noise unless told otherwise; the other methods take the samples as they are. */
-static network::SmoothingOptions smoothing_of(const wsk_options& options, const Scale& scale) {
-  const bool automatic =
-      options.smoothing == WSK_SMOOTHING_AUTO ||
-      (options.smoothing == WSK_SMOOTHING_DEFAULT && options.method == WSK_METHOD_FAIR);
-  if (automatic) return {network::Noise::estimate, 0.0};
-  if (options.smoothing == WSK_SMOOTHING_GIVEN && options.noise > 0.0) {
-    return {network::Noise::given, scale(options.noise)};
-  }
-  return {network::Noise::none, 0.0};
+  if (!(farthest * k_rounding > k_most * spacing)) return status;
+  return fail(status.code,
+              "the network lies so far from the origin that its positions are rounded too "
+              "coarsely: move it to the origin",
+              status.place);
 }
 
 static Status build(Context& context, const wsk_curve* curves, size_t count,
@@ -25392,7 +30515,7 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
   }
   const Status status = surface_curves(context, set, settings, &surface);
   report_counts(surface.counts, Scale(exponent), report);
-  TRY(status);
+  TRY(explain_rounding(status, storage.position.span(), surface.counts.spacing));
   return make_handle(context, surface, exponent, out);
 }
 
@@ -25420,29 +30543,8 @@ static Status smooth_mesh(Context& context, const wsk_mesh& mesh, const wsk_opti
   return make_handle(context, surface, exponent, out);
 }
 
-/* What both calls share: options, context, report; `task` does the work. */
-template <typename Task>
-static wsk_status run(const wsk_options* given, wsk_surface** surface, wsk_report* out,
-                      const Task& task) {
-  wsk_report report;
-  wsk_report_init(&report, sizeof report);
-  if (out != nullptr && out->size < k_report_size) return WSK_ERROR_BAD_ARGUMENT;
-  if (surface == nullptr) {
-    return finish(fail(Code::bad_argument, "there is no place for the surface"), &report, out);
-  }
-  wsk_options options;
-  const Status checked = read_options(given, &options);
-  if (!checked.ok()) return finish(checked, &report, out);
-  Context context(allocator_of(options), options.memory_cap, callbacks_of(options));
-  wsk_surface* made = nullptr;
-  Status status = task(context, options, &report, &made);
-  if (!status.ok() && made != nullptr) {
-    wsk_surface_free(made);  /* cancelled at the very end */
-    made = nullptr;
-  }
-  report_costs(context, &report);
-  if (status.ok()) *surface = made;
-  return finish(status, &report, out);
+static Destination<wsk_surface> to_surface(wsk_surface** surface) {
+  return {surface, "there is no place for the surface", wsk_surface_free};
 }
 
 }  /* namespace wireskin::api */
@@ -25495,46 +30597,40 @@ void wsk_options_init(wsk_options* options, size_t size) {
   if (options == nullptr || size < wireskin::api::k_options_size) return;
   wsk_options defaults;
   std::memset(&defaults, 0, sizeof defaults);
-  std::memset(options, 0, size);
-  defaults.size = size;
   defaults.method = WSK_METHOD_FAIR;
-  std::memcpy(options, &defaults, wireskin::api::least(size, sizeof defaults));
+  wireskin::api::write_defaults(defaults, size, options);
 }
 
 void wsk_report_init(wsk_report* report, size_t size) {
   if (report == nullptr || size < wireskin::api::k_report_size) return;
   wsk_report defaults;
   std::memset(&defaults, 0, sizeof defaults);
-  std::memset(report, 0, size);
-  defaults.size = size;
   defaults.sentence = "";
   defaults.curve = defaults.sample = defaults.node = WSK_NONE;
   defaults.patch = defaults.vertex = defaults.triangle = WSK_NONE;
   defaults.first_ambiguous_patch = WSK_NONE;
-  std::memcpy(report, &defaults, wireskin::api::least(size, sizeof defaults));
+  wireskin::api::write_defaults(defaults, size, report);
 }
 
 wsk_status wsk_build(const wsk_curve* curves, size_t curve_count, const wsk_options* options,
                      wsk_surface** surface, wsk_report* report) {
-  return wireskin::api::run(options, surface, report,
-                            [&](wireskin::Context& context, const wsk_options& checked,
-                                wsk_report* filled, wsk_surface** made) {
-                              return wireskin::api::build(context, curves, curve_count, checked,
-                                                          filled, made);
-                            });
+  using namespace wireskin;
+  return api::run_call(
+      {}, options, api::to_surface(surface), report,
+      [&](Context& context, const wsk_options& checked, wsk_report* filled, wsk_surface** made) {
+        return api::build(context, curves, curve_count, checked, filled, made);
+      });
 }
 
 wsk_status wsk_smooth_mesh(const wsk_mesh* mesh, const wsk_options* options, wsk_surface** surface,
                            wsk_report* report) {
-  return wireskin::api::run(
-      options, surface, report,
-      [&](wireskin::Context& context, const wsk_options& checked, wsk_report* filled,
-          wsk_surface** made) -> wireskin::Status {
-        if (mesh == nullptr) {
-          return wireskin::fail(wireskin::Code::bad_argument, "the mesh is null");
-        }
-        return wireskin::api::smooth_mesh(context, *mesh, checked, filled, made);
-      });
+  using namespace wireskin;
+  return api::run_call({}, options, api::to_surface(surface), report,
+                       [&](Context& context, const wsk_options& checked, wsk_report* filled,
+                           wsk_surface** made) -> Status {
+                         if (mesh == nullptr) return fail(Code::bad_argument, "the mesh is null");
+                         return api::smooth_mesh(context, *mesh, checked, filled, made);
+                       });
 }
 
 void wsk_surface_get_view(const wsk_surface* surface, wsk_surface_view* view, size_t size) {
@@ -25580,38 +30676,38 @@ struct FlowTables {
 struct wsk_flow {
   wireskin::Context context;
   wireskin::flow::Flow flow;
+  wireskin::Array<wireskin::Vec3> given;   /* the caller's samples before noise was taken out */
   wireskin::Array<wireskin::Vec3> normal;  /* of the caller's samples, or empty */
+  wireskin::network::SmoothingReport noise;
+  uint32_t bare_curves = 0;  /* without normals, where others have some */
   wireskin::api::FlowTables tables;
   int exponent = 0;
   wsk_flow_view view = {};
 
   wsk_flow(const wireskin::Allocator& allocator, size_t cap, const wireskin::Callbacks& callbacks)
-      : context(allocator, cap, callbacks), flow(context), normal(context), tables(context) {}
+      : context(allocator, cap, callbacks),
+        flow(context),
+        given(context),
+        normal(context),
+        tables(context) {}
 };
 
 namespace wireskin::api {
 
 static constexpr size_t k_flow_options_size = offsetof(wsk_flow_options, raw) + sizeof(int32_t);
 
-static bool not_negative(double x) {
-  return x >= 0.0 && x - x == 0.0;
-}
-
 static Status read_flow_options(const wsk_flow_options* given, wsk_flow_options* options) {
   wsk_flow_options_init(options, sizeof *options);
-  if (given == nullptr) return {};
-  if (given->size < k_flow_options_size) {
-    return fail(Code::bad_argument,
-                "the flow options are not initialised: call wsk_flow_options_init first");
-  }
-  std::memcpy(options, given, least(given->size, sizeof *options));
-  if (!not_negative(options->sampling)) {
+  TRY(read_struct(given, k_flow_options_size,
+                  "the flow options are not initialised: call wsk_flow_options_init first",
+                  options));
+  if (!finite_and_not_negative(options->sampling)) {
     return fail(Code::bad_argument, "the sampling is negative or not finite");
   }
   if (!(options->jitter >= 0.0 && options->jitter <= 1e-3)) {
     return fail(Code::bad_argument, "the jitter is not between 0 and 0.001");
   }
-  if (!not_negative(options->thickness)) {
+  if (!finite_and_not_negative(options->thickness)) {
     return fail(Code::bad_argument, "the thickness is negative or not finite");
   }
   return {};
@@ -25632,10 +30728,12 @@ struct FlowInput {
 
 }  /* namespace */
 
+/* `bare`: curves that have no normals, points aside; all of them counts as none of them. */
 static Status count_flow_samples(const wsk_curve* curves, size_t count, size_t* total,
-                                 bool* normals) {
+                                 uint32_t* bare) {
+  uint32_t lines = 0;
   *total = 0;
-  *normals = true;
+  *bare = 0;
   for (size_t c = 0; c < count; ++c) {
     Place place;
     place.curve = static_cast<uint32_t>(c);
@@ -25648,20 +30746,26 @@ static Status count_flow_samples(const wsk_curve* curves, size_t count, size_t* 
     if (curves[c].positions == nullptr) {
       return fail(Code::bad_argument, "the curve has no positions", place);
     }
-    if (curves[c].normals == nullptr || curves[c].sharp != 0) *normals = false;
+    if (curves[c].soft > 0.0) {
+      return fail(Code::bad_argument, "a surface from curves alone cannot have soft curves", place);
+    }
     *total += curves[c].sample_count;
+    if (curves[c].sample_count == 1) continue;
+    ++lines;
+    *bare += curves[c].normals == nullptr || curves[c].sharp != 0;
   }
+  if (*bare == lines) *bare = k_none;
   return {};
 }
 
 static Status read_flow_curves(const wsk_curve* curves, size_t count, FlowInput* input,
-                               Array<Vec3>* normal) {
+                               Array<Vec3>* normal, uint32_t* bare) {
   size_t total = 0;
-  bool normals = false;
   if (count == 0) return fail(Code::empty, "there are no curves");
   if (curves == nullptr) return fail(Code::bad_argument, "the curves are null");
   if (count >= k_none / 4) return fail(Code::too_large, "too many curves for 32-bit indices");
-  TRY(count_flow_samples(curves, count, &total, &normals));
+  TRY(count_flow_samples(curves, count, &total, bare));
+  const bool normals = *bare == 0;
   TRY(input->start.reserve(count + 1));
   TRY(input->closed.reserve(count));
   TRY(input->position.reserve(total));
@@ -25679,13 +30783,26 @@ static Status read_flow_curves(const wsk_curve* curves, size_t count, FlowInput*
       input->position.push_reserved(value);
       input->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
       if (!normals) continue;
-      TRY(read_normal({curve.normals, curve.normal_stride}, i, place, &value));
+      value = {};
+      if (curve.normals != nullptr) {
+        TRY(read_normal({curve.normals, curve.normal_stride}, i, place, &value));
+      }
       normal->push_reserved(value);
     }
     input->closed.push_reserved(curve.closed != 0);
     input->start.push_reserved(static_cast<uint32_t>(input->position.size()));
   }
   return {};
+}
+
+/* Without noise the samples keep their bits, so looking for it is no risk. */
+static network::SmoothingOptions flow_smoothing_of(const wsk_options& options, const Scale& scale) {
+  const bool given = options.smoothing == WSK_SMOOTHING_GIVEN;
+  if (options.smoothing == WSK_SMOOTHING_NONE || (given && options.noise == 0.0)) {
+    return {network::Noise::none, 0.0};
+  }
+  if (given) return {network::Noise::given, scale(options.noise)};
+  return {network::Noise::estimate, 0.0};
 }
 
 static Status list_voids(const flow::Persistence& persistence, const Scale& unscale,
@@ -25702,7 +30819,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   Context& context = made->context;
   FlowInput input(context);
   TRY(context.enter(Stage::input));
-  TRY(read_flow_curves(curves, count, &input, &made->normal));
+  TRY(read_flow_curves(curves, count, &input, &made->normal, &made->bare_curves));
   TRY(find_scale(input.position.span(), &made->exponent));
   const Scale scale(-made->exponent);
   for (Vec3& p : input.position) p = scale(p);
@@ -25716,8 +30833,13 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   if (flow_options.jitter > 0.0) inside.complex.jitter = flow_options.jitter;
   if (flow_options.most_tetrahedra > 0) inside.complex.most_tets = flow_options.most_tetrahedra;
   inside.complex.seed = flow_options.seed;
+  inside.bend = !made->normal.empty();
   const flow::Polylines polylines = {input.start.span(), input.position.span(), input.number.span(),
                                      input.closed.span()};
+  TRY(made->given.copy(input.position.span()));
+  TRY(context.enter(Stage::curves));
+  TRY(smooth_polylines(context, polylines, flow_smoothing_of(options, scale), input.position.span(),
+                       made->normal.span(), &made->noise));
   TRY(flow::build_flow(context, polylines, inside, &made->flow));
   TRY(list_voids(made->flow.persistence, Scale(made->exponent), &made->tables.voids));
   wsk_flow_view& view = made->view;
@@ -25728,6 +30850,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   view.missing_count = made->flow.curves.missing;
   view.void_count = static_cast<uint32_t>(made->tables.voids.size());
   view.voids = made->tables.voids.data();
+  view.normals_sentence = "";
   flow::CriticalPoints critical(context);
   TRY(flow::find_critical_points(made->flow.complex, &critical));
   view.critical_count[0] = critical.points;
@@ -25782,6 +30905,28 @@ static Status list_arcs(const flow::Samples& samples, Span<const uint32_t> bare,
   return {};
 }
 
+static const char* normals_sentence(NormalsUse use) {
+  switch (use) {
+    case NormalsUse::none:
+    case NormalsUse::used:
+      return "";
+    case NormalsUse::incomplete:
+      return "some curves have no normals, or are sharp";
+    case NormalsUse::not_manifold:
+      return "the surface is no manifold with two sides: patches branch, touch in points or cannot "
+             "be turned alike";
+    case NormalsUse::free_border:
+      return "part of the surface's border is no curve";
+    case NormalsUse::contradicting:
+      return "normals contradict each other or the surface";
+    case NormalsUse::crossing:
+      return "the surface they give would cross itself";
+    case NormalsUse::too_thin:
+      return "triangles are too thin to be smoothed";
+  }
+  return "";
+}
+
 static void fill_flow_view(const flow::Reconstruction& reconstruction, const FlowOutcome& outcome,
                            const FlowTables& tables, wsk_flow_view* view) {
   for (int k = 0; k < 3; ++k) view->betti[k] = reconstruction.betti[k];
@@ -25793,7 +30938,11 @@ static void fill_flow_view(const flow::Reconstruction& reconstruction, const Flo
   view->held_count = outcome.held_back;
   view->crossing_count = outcome.crossings;
   view->manifold = outcome.manifold;
-  view->smoothed = outcome.smoothed;
+  view->smoothed = outcome.normals == NormalsUse::used;
+  view->normals = static_cast<wsk_flow_normals>(outcome.normals);
+  view->normals_places = outcome.normals_places;
+  view->normals_sentence = normals_sentence(outcome.normals);
+  view->caged_count = static_cast<uint32_t>(reconstruction.topology.chosen.size());
   view->patches = tables.patches.data();
   view->loop_count = static_cast<uint32_t>(tables.loop_first.size() - 1);
   view->loop_first = tables.loop_first.data();
@@ -25820,6 +30969,8 @@ static Status make_flow_surface(Context& context, const wsk_options& options,
   FlowSettings settings;
   settings.method = static_cast<smooth::Method>(options.method);
   settings.normal = flow->normal.span();
+  settings.given = flow->given.span();
+  settings.bare_curves = flow->bare_curves;
   if (flow_options.raw == 0) {
     settings.spacing = options.spacing > 0.0 ? scale(options.spacing) : flow->flow.step;
     if (options.spacing > 0.0 && settings.spacing == 0.0) {
@@ -25829,6 +30980,7 @@ static Status make_flow_surface(Context& context, const wsk_options& options,
   TRY(flow::reconstruct(context, flow->flow, inside, &reconstruction));
   const Status status =
       surface_from_flow(context, flow->flow, reconstruction, settings, &surface, &outcome);
+  surface.counts.noise = flow->noise;
   report_counts(surface.counts, unscale, report);
   TRY(status);
   TRY(tables.voids.copy(flow->tables.voids.span()));
@@ -25864,7 +31016,19 @@ static void report_flow(wsk_flow* made, size_t curves, wsk_report* report) {
   report->curves = static_cast<uint32_t>(curves);
   report->segments = made->flow.arcs.size();
   for (const uint8_t node : made->flow.arcs.is_node) report->nodes += node;
+  report->noise_position = Scale(made->exponent)(made->noise.sigma_position);
+  report->noise_normal = made->noise.sigma_normal;
   report_costs(made->context, report);
+}
+
+/* What both calls read; a surface from curves alone holds on to all of them. */
+static Status read_both_options(const wsk_options* options, const wsk_flow_options* flow_options,
+                                wsk_options* checked, wsk_flow_options* flow_checked) {
+  TRY(read_options(options, checked));
+  if (checked->soft > 0.0) {
+    return fail(Code::bad_argument, "soft is not for surfaces from curves alone");
+  }
+  return read_flow_options(flow_options, flow_checked);
 }
 
 }  /* namespace wireskin::api */
@@ -25875,11 +31039,9 @@ void wsk_flow_options_init(wsk_flow_options* options, size_t size) {
   if (options == nullptr || size < wireskin::api::k_flow_options_size) return;
   wsk_flow_options defaults;
   std::memset(&defaults, 0, sizeof defaults);
-  std::memset(options, 0, size);
-  defaults.size = size;
   defaults.voids = WSK_VOIDS_AUTO;
   defaults.thickness = 1.2;
-  std::memcpy(options, &defaults, wireskin::api::least(size, sizeof defaults));
+  wireskin::api::write_defaults(defaults, size, options);
 }
 
 wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk_options* options,
@@ -25893,8 +31055,7 @@ wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk
   if (flow == nullptr) {
     return api::finish(fail(Code::bad_argument, "there is no place for the flow"), &report, out);
   }
-  Status status = api::read_options(options, &checked);
-  if (status.ok()) status = api::read_flow_options(flow_options, &flow_checked);
+  Status status = api::read_both_options(options, flow_options, &checked, &flow_checked);
   if (!status.ok()) return api::finish(status, &report, out);
   wsk_flow* made = nullptr;
   status = api::start_flow(checked, &made);
@@ -25924,8 +31085,9 @@ wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
   if (status.ok() && surface == nullptr) {
     status = fail(Code::bad_argument, "there is no place for the surface");
   }
-  if (status.ok()) status = api::read_options(options, &checked);
-  if (status.ok()) status = api::read_flow_options(flow_options, &flow_checked);
+  if (status.ok()) {
+    status = api::read_both_options(options, flow_options, &checked, &flow_checked);
+  }
   if (!status.ok()) return api::finish(status, &report, out);
   Context context(api::allocator_of(checked), checked.memory_cap, api::callbacks_of(checked));
   wsk_surface* made = nullptr;
@@ -25951,14 +31113,6 @@ void wsk_flow_free(wsk_flow* flow) {
 /* The C boundary of raw curves: wsk_connect and wsk_integrate read the caller's arrays, run the */
 /* work of src/network and lay the result out as curves for wsk_build. */
 
-/* One block of the caller's memory holds the handle and, behind it, all arrays of the view. */
-struct wsk_network {
-  wireskin::Allocator allocator;
-  size_t bytes;
-  wsk_network_view view;
-  uint32_t least_fresh, most_fresh;  /* node numbers that are not the caller's */
-};
-
 namespace wireskin::api {
 
 static_assert(static_cast<int>(network::SnapKind::inside_inside) == WSK_SNAP_INSIDE_INSIDE);
@@ -25967,16 +31121,10 @@ static_assert(static_cast<int>(network::Chaining::all) == WSK_CHAIN_ALL);
 static constexpr size_t k_connect_options_size =
     offsetof(wsk_connect_options, options) + sizeof(void*);
 
-/* ---- Input -------------------------------------------------------------------------------------- */
-
 static Status read_connect_options(const wsk_connect_options* given, wsk_connect_options* options) {
   wsk_connect_options_init(options, sizeof *options);
-  if (given == nullptr) return {};
-  if (given->size < k_connect_options_size) {
-    return fail(Code::bad_argument,
-                "the options are not initialised: call wsk_connect_options_init first");
-  }
-  std::memcpy(options, given, least(given->size, sizeof *options));
+  TRY(read_struct(given, k_connect_options_size,
+                  "the options are not initialised: call wsk_connect_options_init first", options));
   if (options->snap - options->snap != 0.0) {
     return fail(Code::bad_argument, "the snapping tolerance is not finite");
   }
@@ -25988,345 +31136,6 @@ static Status read_connect_options(const wsk_connect_options* given, wsk_connect
   }
   return {};
 }
-
-static Place sample_place(uint32_t curve, size_t sample) {
-  Place place;
-  place.curve = curve;
-  place.sample = static_cast<uint32_t>(sample);
-  return place;
-}
-
-/* A unit normal, or zero where the caller has none. */
-static Status read_known_normal(const double* data, size_t stride, size_t i, const Place& place,
-                                Vec3* normal) {
-  *normal = Vec3{};
-  if (data == nullptr) return {};
-  const Rows rows = {data, stride};
-  if (greatest_component(rows[i]) == 0.0) return {};
-  return read_normal(rows, i, place, normal);
-}
-
-/* The sum of the sample counts; `kind` is wsk_curve or wsk_sensor_curve. */
-template <typename Kind>
-static Status count_raw_samples(const Kind* curves, size_t count, size_t* total) {
-  *total = 0;
-  if (count == 0) return fail(Code::empty, "there are no curves");
-  if (curves == nullptr) return fail(Code::bad_argument, "the curves are null");
-  if (count >= k_none / 2) return fail(Code::too_large, "too many curves for 32-bit indices");
-  for (size_t c = 0; c < count; ++c) {
-    Place place;
-    place.curve = static_cast<uint32_t>(c);
-    if (curves[c].sample_count == 0) {
-      return fail(Code::too_few_samples, "the curve has no samples", place);
-    }
-    if (curves[c].sample_count >= k_none / 4 - *total) {
-      return fail(Code::too_large, "too many samples for 32-bit indices", place);
-    }
-    *total += curves[c].sample_count;
-  }
-  return {};
-}
-
-static Status read_raw_curve(const wsk_curve& curve, uint32_t index, bool sharp,
-                             network::Wires* wires) {
-  for (uint32_t i = 0; i < curve.sample_count; ++i) {
-    const Place place = sample_place(index, i);
-    Vec3 position, normal, right;
-    TRY(read_position({curve.positions, curve.position_stride}, i, place, &position));
-    TRY(read_known_normal(curve.normals, curve.normal_stride, i, place, &normal));
-    wires->position.push_reserved(position);
-    wires->normal.push_reserved(normal);
-    wires->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
-    wires->origin.push_reserved({index, i, 0.0});
-    wires->along.push_reserved({index, i, 0});
-    if (!sharp) continue;
-    const double* data = curve.sharp != 0 ? curve.normals_right : nullptr;
-    TRY(read_known_normal(data, curve.normal_right_stride, i, place, &right));
-    wires->right.push_reserved(right);
-  }
-  wires->closed.push_reserved(curve.closed != 0);
-  wires->boundary.push_reserved(curve.boundary != 0);
-  wires->sharp.push_reserved(curve.sharp != 0);
-  wires->soft.push_reserved(curve.soft);
-  wires->start.push_reserved(wires->samples());
-  return {};
-}
-
-static Status read_raw_curves(const wsk_curve* curves, size_t count, network::Wires* wires) {
-  size_t total = 0;
-  bool sharp = false;
-  TRY(count_raw_samples(curves, count, &total));
-  for (uint32_t c = 0; c < count; ++c) {
-    Place place;
-    place.curve = c;
-    sharp = sharp || curves[c].sharp != 0;
-    if (curves[c].positions == nullptr) {
-      return fail(Code::bad_argument, "the curve has no positions", place);
-    }
-    if (curves[c].soft - curves[c].soft != 0.0) {
-      return fail(Code::bad_argument, "the cutoff length of the curve is not finite", place);
-    }
-  }
-  TRY(network::reserve_wires(static_cast<uint32_t>(count), static_cast<uint32_t>(total), sharp,
-                             wires));
-  wires->start.push_reserved(0);
-  for (uint32_t c = 0; c < count; ++c) TRY(read_raw_curve(curves[c], c, sharp, wires));
-  return {};
-}
-
-static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
-                                network::Wires* wires, Array<double>* arc, Array<Vec3>* tangent) {
-  if (curve.sample_count < (curve.closed != 0 ? 4u : 2u)) {
-    return fail(Code::too_few_samples, "the curve has too few samples",
-                sample_place(index, k_none));
-  }
-  if (curve.arc_lengths == nullptr || curve.tangents == nullptr) {
-    return fail(Code::bad_argument, "the curve has no arc lengths or no tangents",
-                sample_place(index, k_none));
-  }
-  for (uint32_t i = 0; i < curve.sample_count; ++i) {
-    const Place place = sample_place(index, i);
-    const double s = curve.arc_lengths[i];
-    Vec3 normal, direction;
-    TRY(read_known_normal(curve.tangents, curve.tangent_stride, i, place, &direction));
-    TRY(read_known_normal(curve.normals, curve.normal_stride, i, place, &normal));
-    if (direction == Vec3{}) return fail(Code::bad_argument, "the tangent has zero length", place);
-    if (s != s) return fail(Code::not_a_number, "the arc length is not a number", place);
-    if (s - s != 0.0) return fail(Code::infinite, "the arc length is infinite", place);
-    if (i > 0 && !(s > arc->back())) {
-      return fail(Code::duplicate_samples, "the arc length does not increase", place);
-    }
-    arc->push_reserved(s);
-    tangent->push_reserved(direction);
-    wires->position.push_reserved(Vec3{});
-    wires->normal.push_reserved(normal);
-    wires->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
-    wires->origin.push_reserved({index, i, 0.0});
-  }
-  wires->closed.push_reserved(curve.closed != 0);
-  wires->boundary.push_reserved(curve.boundary != 0);
-  wires->sharp.push_reserved(0);
-  wires->soft.push_reserved(0.0);
-  wires->start.push_reserved(wires->samples());
-  return {};
-}
-
-/* ---- Output ------------------------------------------------------------------------------------- */
-
-/* Node numbers of the result: the least of the caller's at each point; at points with more than one */
-/* sample and none of his, fresh ones. */
-struct NodeNumbers {
-  Array<uint32_t> of_sample;
-  uint32_t least_fresh = k_none, most_fresh = 0;
-
-  explicit NodeNumbers(Context& context) : of_sample(context) {}
-};
-
-/* The next number from `candidate` on that is not in the ascending list. */
-static uint32_t unused_number(Span<const uint32_t> used, size_t* at, uint32_t candidate) {
-  while (*at < used.size() && used[*at] <= candidate) {
-    if (used[(*at)++] == candidate) ++candidate;
-  }
-  return candidate;
-}
-
-static Status number_nodes(Context& context, const network::Wires& wires, NodeNumbers* numbers) {
-  Array<uint32_t> least_number(context), members(context), used(context);
-  TRY(least_number.assign(wires.points, k_none));
-  TRY(members.assign(wires.points, 0));
-  TRY(used.reserve(wires.samples()));
-  TRY(numbers->of_sample.resize(wires.samples()));
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    uint32_t& number = least_number[wires.point[i]];
-    number = wires.number[i] < number ? wires.number[i] : number;
-    ++members[wires.point[i]];
-    if (wires.number[i] != k_none) used.push_reserved(wires.number[i]);
-  }
-  sort(used.span(), [](uint32_t a, uint32_t b) { return a < b; });
-  /* Above all of the caller's where there is room, else in the gaps between them. */
-  const uint32_t most = used.empty() ? 0 : used.back();
-  uint32_t next = used.empty() ? 0 : most < k_none - 1 - wires.points ? most + 1 : 0;
-  size_t at = next > most ? used.size() : 0;
-  for (uint32_t p = 0; p < wires.points; ++p) {
-    if (members[p] < 2 || least_number[p] != k_none) continue;
-    next = unused_number(used.span(), &at, next);
-    numbers->least_fresh = next < numbers->least_fresh ? next : numbers->least_fresh;
-    numbers->most_fresh = next;
-    least_number[p] = next++;
-  }
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    const uint32_t p = wires.point[i];
-    numbers->of_sample[i] = members[p] < 2 ? wires.number[i] : least_number[p];
-  }
-  return {};
-}
-
-/* Normals that did not change leave as they came: not made unit, or another call would make them */
-/* unit once more and round again. `given` may be null (no curves to compare with). */
-static Vec3 normal_as_given(const wsk_curve* given, const network::Origin& origin,
-                            const Vec3& normal) {
-  if (given == nullptr || origin.part != 0.0 || normal == Vec3{}) return normal;
-  const wsk_curve& curve = given[origin.curve];
-  const Rows sides[2] = {{curve.normals, curve.normal_stride},
-                         {curve.normals_right, curve.normal_right_stride}};
-  for (int side = 0; side < (curve.sharp != 0 ? 2 : 1); ++side) {
-    if (sides[side].data == nullptr) continue;
-    Vec3 unit_given;
-    const Vec3 raw = sides[side][origin.sample];
-    if (greatest_component(raw) == 0.0) continue;
-    if (!read_normal(sides[side], origin.sample, {}, &unit_given).ok()) continue;
-    if (unit_given == normal) return raw;
-    if (-unit_given == normal) return -raw;
-  }
-  return normal;
-}
-
-/* Where the arrays of the view stand in the block. */
-struct NetworkLayout {
-  size_t curves, first, positions, normals, right, nodes, given_curve, given_sample, given_part;
-  size_t snaps, contradictions, bytes;
-
-  NetworkLayout(const network::Wires& wires, size_t snap_count, size_t contradiction_count) {
-    Layout layout(sizeof(wsk_network));
-    const size_t n = wires.samples(), m = wires.curves();
-    curves = layout.add_array<wsk_curve>(m);
-    first = layout.add_array<uint32_t>(m + 1);
-    positions = layout.add_array<double>(3 * n);
-    normals = layout.add_array<double>(3 * n);
-    right = layout.add_array<double>(3 * wires.right.size());
-    nodes = layout.add_array<uint32_t>(n);
-    given_curve = layout.add_array<uint32_t>(n);
-    given_sample = layout.add_array<uint32_t>(n);
-    given_part = layout.add_array<double>(n);
-    snaps = layout.add_array<wsk_snap>(snap_count);
-    contradictions = layout.add_array<wsk_contradiction>(contradiction_count);
-    bytes = layout.bytes();
-  }
-};
-
-static wsk_place place_of(const network::Origin& origin, const Vec3& position) {
-  return {origin.curve, origin.sample, origin.part, {position.x, position.y, position.z}};
-}
-
-static const double* normals_or_null(const double* normals, size_t first, size_t count) {
-  for (size_t i = 3 * first; i < 3 * (first + count); ++i) {
-    if (normals[i] != 0.0) return normals + 3 * first;
-  }
-  return nullptr;
-}
-
-/* The curves of the view, which point into the arrays of the block. */
-static const wsk_curve* write_curves(const network::Wires& wires, const NetworkLayout& layout,
-                                     unsigned char* block) {
-  wsk_curve* curves = reinterpret_cast<wsk_curve*>(block + layout.curves);
-  const double* positions = reinterpret_cast<const double*>(block + layout.positions);
-  const double* normals = reinterpret_cast<const double*>(block + layout.normals);
-  const double* right = reinterpret_cast<const double*>(block + layout.right);
-  const uint32_t* nodes = reinterpret_cast<const uint32_t*>(block + layout.nodes);
-  for (uint32_t c = 0; c < wires.curves(); ++c) {
-    const uint32_t first = wires.start[c], count = wires.size(c);
-    wsk_curve curve = {};
-    curve.sample_count = count;
-    curve.positions = positions + 3 * size_t{first};
-    curve.normals = normals_or_null(normals, first, count);
-    curve.nodes = nodes + first;
-    curve.closed = wires.closed[c];
-    curve.boundary = wires.boundary[c];
-    curve.soft = wires.soft[c];
-    curve.sharp = wires.sharp[c];
-    if (curve.sharp != 0) curve.normals_right = normals_or_null(right, first, count);
-    curves[c] = curve;
-  }
-  return curves;
-}
-
-static wsk_network_counts counts_of(const network::WireCounts& counts, uint32_t open_gaps) {
-  return {counts.curves,   counts.samples,    counts.nodes,
-          counts.dangling, counts.components, open_gaps};
-}
-
-static void write_events(const network::ConnectResult& result, const Scale& lengths,
-                         const NetworkLayout& layout, unsigned char* block,
-                         wsk_network_view* view) {
-  wsk_snap* snaps = reinterpret_cast<wsk_snap*>(block + layout.snaps);
-  for (size_t k = 0; k < result.snapping.snaps.size(); ++k) {
-    const network::Snap& snap = result.snapping.snaps[k];
-    snaps[k] = {place_of(snap.a, lengths(snap.at_a)), place_of(snap.b, lengths(snap.at_b)),
-                lengths(snap.distance), static_cast<wsk_snap_kind>(snap.kind)};
-  }
-  wsk_contradiction* contradictions =
-      reinterpret_cast<wsk_contradiction*>(block + layout.contradictions);
-  for (size_t k = 0; k < result.contradictions.size(); ++k) {
-    const network::Contradiction& c = result.contradictions[k];
-    contradictions[k] = {place_of(c.a, {}), place_of(c.b, {}), c.angle * (180.0 / k_pi)};
-  }
-  view->snaps = snaps;
-  view->contradictions = contradictions;
-  view->snap_count = static_cast<uint32_t>(result.snapping.snaps.size());
-  view->contradiction_count = static_cast<uint32_t>(result.contradictions.size());
-  view->before = counts_of(result.before, result.snapping.open_before);
-  view->after = counts_of(result.after, result.snapping.open_after);
-  view->tolerance = lengths(result.tolerance);
-  view->filled_normals = result.normals.filled;
-  view->turned_normals = result.turned;
-  view->curves_without_normals = result.normals.missing;
-}
-
-static Status make_network(Context& context, const network::Wires& wires,
-                           const network::ConnectResult& result, int exponent,
-                           const wsk_curve* given, wsk_network** out) {
-  NodeNumbers numbers(context);
-  TRY(context.enter(Stage::result));
-  TRY(number_nodes(context, wires, &numbers));
-  const NetworkLayout layout(wires, result.snapping.snaps.size(), result.contradictions.size());
-  void* memory = nullptr;
-  TRY(context.allocate(layout.bytes, 1, &memory));
-  unsigned char* block = static_cast<unsigned char*>(memory);
-  const Scale lengths(exponent), none(0);
-  write_vectors(block, layout.positions, wires.position.span(), lengths);
-  double* normals = reinterpret_cast<double*>(block + layout.normals);
-  double* right = reinterpret_cast<double*>(block + layout.right);
-  uint32_t* nodes = reinterpret_cast<uint32_t*>(block + layout.nodes);
-  uint32_t* given_curve = reinterpret_cast<uint32_t*>(block + layout.given_curve);
-  uint32_t* given_sample = reinterpret_cast<uint32_t*>(block + layout.given_sample);
-  double* given_part = reinterpret_cast<double*>(block + layout.given_part);
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    const network::Origin& origin = wires.origin[i];
-    const Vec3 n = normal_as_given(given, origin, wires.normal[i]);
-    normals[3 * i] = n.x, normals[3 * i + 1] = n.y, normals[3 * i + 2] = n.z;
-    if (!wires.right.empty()) {
-      const Vec3 r = normal_as_given(given, origin, wires.right[i]);
-      right[3 * i] = r.x, right[3 * i + 1] = r.y, right[3 * i + 2] = r.z;
-    }
-    nodes[i] = numbers.of_sample[i];
-    given_curve[i] = origin.curve;
-    given_sample[i] = origin.sample;
-    given_part[i] = origin.part;
-  }
-  uint32_t* first = reinterpret_cast<uint32_t*>(block + layout.first);
-  for (size_t c = 0; c < wires.start.size(); ++c) first[c] = wires.start[c];
-
-  wsk_network* handle = static_cast<wsk_network*>(memory);
-  handle->allocator = context.allocator();
-  handle->bytes = layout.bytes;
-  handle->least_fresh = numbers.least_fresh;
-  handle->most_fresh = numbers.most_fresh;
-  wsk_network_view& view = handle->view;
-  view = {};
-  view.size = sizeof view;
-  view.curve_count = wires.curves();
-  view.sample_count = wires.samples();
-  view.curves = write_curves(wires, layout, block);
-  view.first_sample = first;
-  view.given_curve = given_curve;
-  view.given_sample = given_sample;
-  view.given_part = given_part;
-  write_events(result, lengths, layout, block, &view);
-  *out = handle;
-  return context.progress(1.0);
-}
-
-/* ---- The two tasks ------------------------------------------------------------------------------ */
 
 static double box_diagonal(Span<const Vec3> points) {
   Vec3 low = points[0], high = points[0];
@@ -26419,44 +31228,39 @@ static Status weld_sensor(Context& context, network::Wires* wires) {
   return {};
 }
 
-static Status integrate(Context& context, const wsk_sensor_curve* curves, size_t count,
-                        wsk_report* report, wsk_network** out) {
-  network::Wires wires(context);
-  network::ConnectResult result(context);
-  Array<double> arc(context);
-  Array<Vec3> tangent(context);
-  Array<uint8_t> to_next(context);
-  Array<uint32_t> component(context);
-  size_t total = 0;
-  TRY(context.enter(Stage::input));
-  TRY(count_raw_samples(curves, count, &total));
-  TRY(network::reserve_wires(static_cast<uint32_t>(count), static_cast<uint32_t>(total), false,
-                             &wires));
-  TRY(arc.reserve(total));
-  TRY(tangent.reserve(total));
-  TRY(to_next.reserve(count));
-  wires.start.push_reserved(0);
-  for (uint32_t c = 0; c < count; ++c) {
-    TRY(read_sensor_curve(curves[c], c, &wires, &arc, &tangent));
-    to_next.push_reserved(curves[c].tangents_to_next != 0);
-  }
+/* The power of two that brings the longest curve to one half up to one. */
+static Status find_scale_of_arcs(const SensorCurves& sensor, int* exponent) {
   double longest = 0.0;
-  for (uint32_t c = 0; c < count; ++c) {
-    const double size = arc[wires.start[c + 1] - 1] - arc[wires.start[c]];
+  for (uint32_t c = 0; c < sensor.wires.curves(); ++c) {
+    const Array<uint32_t>& start = sensor.wires.start;
+    const double size = sensor.arc[start[c + 1] - 1] - sensor.arc[start[c]];
     longest = size > longest ? size : longest;
   }
   if (longest - longest != 0.0) {
     return fail(Code::infinite, "the arc lengths span more than a double can hold");
   }
-  const int exponent = binary_exponent(longest);
+  *exponent = binary_exponent(longest);
+  return {};
+}
+
+static Status integrate(Context& context, const wsk_sensor_curve* curves, size_t count,
+                        wsk_report* report, wsk_network** out) {
+  SensorCurves sensor(context);
+  network::ConnectResult result(context);
+  Array<uint32_t> component(context);
+  int exponent = 0;
+  TRY(context.enter(Stage::input));
+  TRY(read_sensor_curves(curves, count, &sensor));
+  TRY(find_scale_of_arcs(sensor, &exponent));
   const Scale scale(-exponent);
-  for (double& s : arc) s = scale(s);
+  for (double& s : sensor.arc) s = scale(s);
+  network::Wires& wires = sensor.wires;
   TRY(weld_sensor(context, &wires));
   TRY(context.enter(Stage::operators));
   double residual = 0.0;
   TRY(network::integrate_tangents(context,
-                                  {wires.start.span(), wires.point.span(), wires.points, arc.span(),
-                                   tangent.span(), to_next.span()},
+                                  {wires.start.span(), wires.point.span(), wires.points,
+                                   sensor.arc.span(), sensor.tangent.span(), sensor.to_next.span()},
                                   wires.position.span(), &residual));
   drop_repeated(&wires);
   TRY(network::count_wires(wires, &component, &result.after));
@@ -26467,27 +31271,8 @@ static Status integrate(Context& context, const wsk_sensor_curve* curves, size_t
   return {};
 }
 
-/* What both calls share: options, context, report; `task` does the work. */
-template <typename Task>
-static wsk_status run_network(const wsk_options* given, const Status& earlier,
-                              wsk_network** network, wsk_report* out, const Task& task) {
-  wsk_report report;
-  wsk_report_init(&report, sizeof report);
-  if (out != nullptr && out->size < k_report_size) return WSK_ERROR_BAD_ARGUMENT;
-  if (network == nullptr) {
-    return finish(fail(Code::bad_argument, "there is no place for the network"), &report, out);
-  }
-  wsk_options options;
-  Status status = earlier;
-  if (status.ok()) status = read_options(given, &options);
-  if (!status.ok()) return finish(status, &report, out);
-  Context context(allocator_of(options), options.memory_cap, callbacks_of(options));
-  wsk_network* made = nullptr;
-  status = task(context, &report, &made);
-  if (!status.ok() && made != nullptr) wsk_network_free(made);  /* cancelled at the very end */
-  report_costs(context, &report);
-  if (status.ok()) *network = made;
-  return finish(status, &report, out);
+static Destination<wsk_network> to_network(wsk_network** network) {
+  return {network, "there is no place for the network", wsk_network_free};
 }
 
 /* The first sample that carries the number; k_none if none does. */
@@ -26512,21 +31297,23 @@ void wsk_connect_options_init(wsk_connect_options* options, size_t size) {
 wsk_status wsk_connect(const wsk_curve* curves, size_t curve_count,
                        const wsk_connect_options* options, wsk_network** network,
                        wsk_report* report) {
+  using namespace wireskin;
   wsk_connect_options checked;
-  const wireskin::Status status = wireskin::api::read_connect_options(options, &checked);
-  return wireskin::api::run_network(
-      status.ok() ? checked.options : nullptr, status, network, report,
-      [&](wireskin::Context& context, wsk_report* filled, wsk_network** made) {
-        return wireskin::api::connect(context, curves, curve_count, checked, filled, made);
+  const Status status = api::read_connect_options(options, &checked);
+  return api::run_call(
+      status, status.ok() ? checked.options : nullptr, api::to_network(network), report,
+      [&](Context& context, const wsk_options&, wsk_report* filled, wsk_network** made) {
+        return api::connect(context, curves, curve_count, checked, filled, made);
       });
 }
 
 wsk_status wsk_integrate(const wsk_sensor_curve* curves, size_t curve_count,
                          const wsk_options* options, wsk_network** network, wsk_report* report) {
-  return wireskin::api::run_network(
-      options, {}, network, report,
-      [&](wireskin::Context& context, wsk_report* filled, wsk_network** made) {
-        return wireskin::api::integrate(context, curves, curve_count, filled, made);
+  using namespace wireskin;
+  return api::run_call(
+      {}, options, api::to_network(network), report,
+      [&](Context& context, const wsk_options&, wsk_report* filled, wsk_network** made) {
+        return api::integrate(context, curves, curve_count, filled, made);
       });
 }
 
