@@ -1,5 +1,7 @@
 #include "flow/loose_walls.h"
 
+#include "flow/topology.h"
+
 namespace wireskin::flow {
 
 // Of a wall's border, how much makes it loose: ending in flat faces, and ending anywhere.
@@ -20,11 +22,17 @@ enum class Ending : uint8_t { none, somewhere, in_face };
 struct LooseSearch {
   Sheet sheet;
   Array<uint32_t> mark, wall;
+  Array<uint32_t> room;    // label_rooms() of the sheet
   Array<uint32_t> ending;  // of each edge, a bit for each place in triangles_of that ends there
   Array<uint8_t> in_face;  // of each edge: two of those that continue are a flat face
 
   explicit LooseSearch(Context& context)
-      : sheet(context), mark(context), wall(context), ending(context), in_face(context) {}
+      : sheet(context),
+        mark(context),
+        wall(context),
+        room(context),
+        ending(context),
+        in_face(context) {}
 };
 
 struct EdgeFan {
@@ -105,6 +113,19 @@ static Ending ending_at(const Complex& complex, const LooseSearch& search, uint3
   return Ending::none;
 }
 
+// Whether the wall parts a room from the outside. There a wall may end all round and hold
+// nevertheless: where a pocket of uneven samples bulges from it, the pocket's floor continues the
+// wall more evenly than its roof.
+static bool is_outer(const Complex& complex, const LooseSearch& search) {
+  const uint32_t outside = search.room[complex.tet_count()], t = search.wall[0];
+  bool outer[2];
+  for (uint32_t k = 0; k < 2; ++k) {
+    const uint32_t side = complex.triangle_side[2 * size_t{t} + k];
+    outer[k] = side == k_none || search.room[side] == outside;
+  }
+  return outer[0] != outer[1];
+}
+
 static bool is_loose(const Complex& complex, const CurveEdges& curves,
                      Span<const Flatness> flatness, const LooseSearch& search, bool only_in_faces) {
   double held = 0.0, somewhere = 0.0, in_face = 0.0;
@@ -122,8 +143,8 @@ static bool is_loose(const Complex& complex, const CurveEdges& curves,
     }
   }
   const double whole = held + somewhere + in_face;
-  return in_face > k_share_in_faces * whole ||
-         (!only_in_faces && somewhere + in_face > k_share_anywhere * whole);
+  return in_face > k_share_in_faces * whole || (!only_in_faces && !is_outer(complex, search) &&
+                                                somewhere + in_face > k_share_anywhere * whole);
 }
 
 // The walls of all rooms above a ratio.
@@ -147,6 +168,7 @@ static Status mark_loose(Context& context, const Complex& complex, const CurveEd
                          double least_room, LooseSearch* search, Array<uint8_t>* loose, bool* any) {
   TRY(cut_rooms(complex, curves, persistence, least_room, &search->sheet));
   find_endings(complex, curves, flatness, search);
+  TRY(label_rooms(complex, search->sheet, &search->room));
   TRY(context.checkpoint());
   for (uint32_t& m : search->mark) m = k_none;
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {

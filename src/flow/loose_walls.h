@@ -3,11 +3,11 @@
 //
 // In: the complex, the samples, the curves' edges. Out: the flat faces; the persistence of the
 // complex with the loose walls passed before all others (persistence.h), which joins the rooms that
-// they part; for each triangle whether it lies in one. All rooms are cut out, and their walls
-// looked at: one that ends in the middle of flat faces along a quarter of its border is loose, and
-// one that ends on walls of whatever shape along nearly all of it; where three or more meet off the
-// curves, the two that continue each other most evenly do not end. What is passed first changes
-// what closes the other rooms, so this repeats, as long as it finds any. Near-linear a round.
+// they part; for each triangle whether it lies in one. All rooms are cut out. A wall is loose if it
+// ends in the middle of flat faces along a quarter of its border, or, with rooms on both sides or
+// none, on walls of any shape along nearly all of it; where three or more meet off the curves, the
+// two that continue each other most evenly do not end. What is passed first changes what closes the
+// other rooms, so this repeats, as long as it finds any. Near-linear a round.
 #pragma once
 
 #include "flow/flat_faces.h"
