@@ -625,8 +625,8 @@ typedef struct wsk_network_view {
  *
  * In the result every joint has a node number: the least that the caller gave there, or else one
  * that he did not use. What needed nothing comes out as it went in, bit for bit and in the same
- * order. Coinciding neighbours and other faults within a curve are left to wsk_build to complain
- * of.
+ * order. Neighbours that coincide become one at new joints; elsewhere they and other faults within
+ * a curve are left to wsk_build to complain of.
  *
  * `options` may be null (defaults); `report` may be null; of it only the status, its place, the
  * counts of curves and nodes, and the costs are filled. On success *network is the result, to be
@@ -4766,11 +4766,11 @@ Status radix_sort(Context& context, Array<BitsKey>* keys);
 /* */
 /* In: the complex, the samples, the curves' edges. Out: the flat faces; the persistence of the */
 /* complex with the loose walls passed before all others (persistence.h), which joins the rooms that */
-/* they part; for each triangle whether it lies in one. All rooms are cut out, and their walls */
-/* looked at: one that ends in the middle of flat faces along a quarter of its border is loose, and */
-/* one that ends on walls of whatever shape along nearly all of it; where three or more meet off the */
-/* curves, the two that continue each other most evenly do not end. What is passed first changes */
-/* what closes the other rooms, so this repeats, as long as it finds any. Near-linear a round. */
+/* they part; for each triangle whether it lies in one. All rooms are cut out. A wall is loose if it */
+/* ends in the middle of flat faces along a quarter of its border, or, with rooms on both sides or */
+/* none, on walls of any shape along nearly all of it; where three or more meet off the curves, the */
+/* two that continue each other most evenly do not end. What is passed first changes what closes the */
+/* other rooms, so this repeats, as long as it finds any. Near-linear a round. */
 
 namespace wireskin::flow {
 
@@ -17722,12 +17722,12 @@ struct ChainWalk {
 
 /* The unit tangent at a place; zero at ends and corners, where none is known. */
 static Vec3 tangent_at(const ChainWalk& walk, uint32_t i) {
-  constexpr double k_cos_corner = 0.8191520442889918;  /* of 35 degrees */
+  constexpr double k_cos_bend = 0.8191520442889918;  /* of 35 degrees */
   const uint32_t before = walk.before(i), after = walk.after(i);
   if (before == k_none || after == k_none) return {};
   const Vec3 to = walk.point(i) - walk.point(before), from = walk.point(after) - walk.point(i);
   const double g = length(to), h = length(from);
-  if (dot(to, from) < k_cos_corner * (g * h)) return {};
+  if (dot(to, from) < k_cos_bend * (g * h)) return {};
   return unit((h / g) * to + (g / h) * from);
 }
 
@@ -17744,7 +17744,7 @@ static Vec3 speed(const Vec3& tangent, const Vec3& along, double chord, double b
 
 /* Whether the segment from place i to the next bends at all. */
 static bool cubic_of(const ChainWalk& walk, uint32_t i, Cubic* cubic) {
-  constexpr double k_straight = 1e-7;
+  constexpr double k_least_bend = 1e-7;
   const uint32_t k = walk.after(i), before = walk.before(i), after = walk.after(k);
   cubic->p = walk.point(i);
   cubic->q = walk.point(k);
@@ -17755,7 +17755,7 @@ static bool cubic_of(const ChainWalk& walk, uint32_t i, Cubic* cubic) {
   if (free_begin && free_end) return false;
   if (free_begin) leave = mirrored(reach, along);
   if (free_end) reach = mirrored(leave, along);
-  if (length(cross(leave, along)) + length(cross(reach, along)) < k_straight) return false;
+  if (length(cross(leave, along)) + length(cross(reach, along)) < k_least_bend) return false;
   const double begin = free_begin ? chord : length(cubic->p - walk.point(before));
   const double end = free_end ? chord : length(walk.point(after) - cubic->q);
   const double shorter = smaller(begin, end);
@@ -18024,7 +18024,7 @@ static Bend bend_at(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
 
 /* Polygons that people draw lie in planes, or are made of right angles; noise does neither. */
 static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place) {
-  constexpr double k_flat = 0.02;
+  constexpr double k_least_part = 0.02;
   const uint32_t first = chains.start[chain], count = chains.start[chain + 1] - first;
   const uint32_t i = place - first;
   if (chains.closed[chain] == 0 && (i == 0 || i + 2 >= count)) return true;
@@ -18034,7 +18034,7 @@ static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
   const Vec3 across = cross(point(i) - point(i + count - 1), point(i + 1) - point(i));
   const Vec3 next = point(i + 2) - point(i + 1);
   const double part = std::fabs(dot(across, next)) / (length(across) * length(next));
-  return !(part > k_flat && part < 1.0 - k_flat);
+  return !(part > k_least_part && part < 1.0 - k_least_part);
 }
 
 /* Of the noise, as the quarter of the samples that moved least show it: where curves are polygons */
@@ -19198,11 +19198,17 @@ enum class Ending : uint8_t { none, somewhere, in_face };
 struct LooseSearch {
   Sheet sheet;
   Array<uint32_t> mark, wall;
+  Array<uint32_t> room;    /* label_rooms() of the sheet */
   Array<uint32_t> ending;  /* of each edge, a bit for each place in triangles_of that ends there */
   Array<uint8_t> in_face;  /* of each edge: two of those that continue are a flat face */
 
   explicit LooseSearch(Context& context)
-      : sheet(context), mark(context), wall(context), ending(context), in_face(context) {}
+      : sheet(context),
+        mark(context),
+        wall(context),
+        room(context),
+        ending(context),
+        in_face(context) {}
 };
 
 struct EdgeFan {
@@ -19283,6 +19289,19 @@ static Ending ending_at(const Complex& complex, const LooseSearch& search, uint3
   return Ending::none;
 }
 
+/* Whether the wall parts a room from the outside. There a wall may end all round and hold */
+/* nevertheless: where a pocket of uneven samples bulges from it, the pocket's floor continues the */
+/* wall more evenly than its roof. */
+static bool is_outer(const Complex& complex, const LooseSearch& search) {
+  const uint32_t outside = search.room[complex.tet_count()], t = search.wall[0];
+  bool outer[2];
+  for (uint32_t k = 0; k < 2; ++k) {
+    const uint32_t side = complex.triangle_side[2 * size_t{t} + k];
+    outer[k] = side == k_none || search.room[side] == outside;
+  }
+  return outer[0] != outer[1];
+}
+
 static bool is_loose(const Complex& complex, const CurveEdges& curves,
                      Span<const Flatness> flatness, const LooseSearch& search, bool only_in_faces) {
   double held = 0.0, somewhere = 0.0, in_face = 0.0;
@@ -19300,8 +19319,8 @@ static bool is_loose(const Complex& complex, const CurveEdges& curves,
     }
   }
   const double whole = held + somewhere + in_face;
-  return in_face > k_share_in_faces * whole ||
-         (!only_in_faces && somewhere + in_face > k_share_anywhere * whole);
+  return in_face > k_share_in_faces * whole || (!only_in_faces && !is_outer(complex, search) &&
+                                                somewhere + in_face > k_share_anywhere * whole);
 }
 
 /* The walls of all rooms above a ratio. */
@@ -19325,6 +19344,7 @@ static Status mark_loose(Context& context, const Complex& complex, const CurveEd
                          double least_room, LooseSearch* search, Array<uint8_t>* loose, bool* any) {
   TRY(cut_rooms(complex, curves, persistence, least_room, &search->sheet));
   find_endings(complex, curves, flatness, search);
+  TRY(label_rooms(complex, search->sheet, &search->room));
   TRY(context.checkpoint());
   for (uint32_t& m : search->mark) m = k_none;
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {

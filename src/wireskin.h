@@ -619,8 +619,8 @@ typedef struct wsk_network_view {
  *
  * In the result every joint has a node number: the least that the caller gave there, or else one
  * that he did not use. What needed nothing comes out as it went in, bit for bit and in the same
- * order. Coinciding neighbours and other faults within a curve are left to wsk_build to complain
- * of.
+ * order. Neighbours that coincide become one at new joints; elsewhere they and other faults within
+ * a curve are left to wsk_build to complain of.
  *
  * `options` may be null (defaults); `report` may be null; of it only the status, its place, the
  * counts of curves and nodes, and the costs are filled. On success *network is the result, to be
