@@ -7,7 +7,8 @@
 // looked at: one that ends in the middle of flat faces along a quarter of its border is loose, and
 // one that ends on walls of whatever shape along nearly all of it; where three or more meet off the
 // curves, the two that continue each other most evenly do not end. What is passed first changes
-// what closes the other rooms, so this repeats, as long as it finds any. Near-linear a round.
+// what closes the other rooms, so this repeats, as long as it finds any, eight rounds at most.
+// Near-linear a round. Source: the rule is our own.
 #pragma once
 
 #include "flow/flat_faces.h"
