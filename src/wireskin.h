@@ -2,12 +2,19 @@
  * wireskin - smooth surfaces through networks of space curves.
  *
  * You give curves in space with surface normals and say where the curves meet; you get one smooth
- * triangle mesh that passes through them. The method is that of T. Stanko, S. Hahmann,
+ * triangle mesh that passes through them (wsk_build). The method is that of T. Stanko, S. Hahmann,
  * G.-P. Bonneau, N. Saguin-Sprynski, "Surfacing Curve Networks with Normal Control", Computers and
  * Graphics 60, 2016: cycles from oriented normals, a constrained Delaunay triangulation of every
  * cycle in its plane, normals propagated from the curves, and a surface whose mean curvature
- * follows them. Everything it needs is inside; it calls nothing but memcpy, memmove, memset, sqrt
- * and, where you give no allocator, malloc and free.
+ * follows them.
+ *
+ * Curves may come raw: fragments that miss each other, normals known here and there. wsk_connect
+ * makes a network of them for wsk_build. And they may come without any normals: wsk_flow_build
+ * finds the voids that they cage, wsk_flow_surface the surface round these (B. Sadri, K. Singh,
+ * "Flow-Complex-Based Shape Reconstruction from 3D Curves", ACM Transactions on Graphics 33, 2014).
+ *
+ * Everything the library needs is inside; it calls nothing but memcpy, memmove, memset, sqrt and,
+ * where you give no allocator, malloc and free.
  *
  * In one paragraph:
  *
@@ -226,8 +233,7 @@ typedef struct wsk_options {
      two nodes is divided evenly, so distances differ a little from it. Ignored by
      wsk_smooth_mesh. */
   double spacing;
-  /* What is done about noise in the samples of wsk_build and wsk_flow_build, before anything else.
-   */
+  /* What wsk_build and wsk_flow_build do about noise in the samples, before anything else. */
   wsk_smoothing smoothing;
   /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none.
    */
@@ -320,7 +326,8 @@ typedef struct wsk_report {
   double spacing;       /* the spacing used, in your units; mean edge length for wsk_smooth_mesh */
   double min_angle_deg; /* the least angle of all triangles of the result */
   /* Of the last linear system A x = b: |b - A x| / |b| in the Euclidean norm, the greatest of its
-     columns. Systems are solved to 1e-12, those of more vertices to 1e-11 or 1e-10. */
+     columns. What is aimed at is 1e-12; beyond some 30,000 vertices, or where memory_cap leaves no
+     room for a factor, 1e-11; beyond 300,000 1e-10. */
   double residual;
   uint32_t factorisations;       /* Cholesky factorisations, of whatever size */
   uint32_t cg_iterations;        /* iterations of conjugate gradients with an earlier factor */
@@ -608,9 +615,12 @@ typedef struct wsk_network_view {
  * insides of curves of different components. Insides of one component are joined only where they
  * cross: at a quarter of the tolerance, or at a hundredth where the network is one component
  * without dangling ends already. Places that the network connects within four tolerances are left
- * alone (loose ends: within four times their distance). Existing nodes stay where they are and the
- * curves that come to them bend smoothly; an end comes to the inside of a curve; ends meet in the
- * middle, and so do insides. A joint between samples becomes a sample.
+ * alone (loose ends: within four times their distance). Where most gaps are next to nothing, as
+ * between curves drawn on a surface, ends that meet a curve come first, every crossing becomes a
+ * joint, and curves side by side are joined last, where nothing else joins their components.
+ * Existing nodes stay where they are and the curves that come to them bend smoothly; an end comes
+ * to the inside of a curve; ends meet in the middle, and so do insides. A joint between samples
+ * becomes a sample.
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other
@@ -836,7 +846,7 @@ typedef struct wsk_flow_view {
  *
  * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
  * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial changes
- * nothing, since no patch is left out ever. `options` and `flow_options` may be null (defaults). On
+ * nothing, since no patch is ever left out. `options` and `flow_options` may be null (defaults). On
  * success *flow is to be given to wsk_flow_free; it keeps the allocator of the options, not the
  * callbacks. */
 WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,

@@ -3,8 +3,7 @@
 // Invariants after reading: normals is empty or as long as positions (three numbers a vertex);
 // has_normal, nodes and vertex_lines are empty or have one entry a vertex (vertex_lines always
 // has); every index is below the number of vertices; a closed curve does not repeat its first
-// vertex. Either raw_curves is empty or everything else is, the names
-// of columns apart.
+// vertex. Either raw_curves is empty or everything else is, the names of columns apart.
 #pragma once
 
 #include <cstddef>

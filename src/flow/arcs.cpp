@@ -6,8 +6,6 @@
 
 namespace wireskin::flow {
 
-static constexpr double k_cos_corner = 0.8191520442889918;  // of 35 degrees
-
 namespace {
 
 struct ArcEdge {

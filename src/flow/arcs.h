@@ -15,6 +15,8 @@
 namespace wireskin::flow {
 
 inline constexpr double k_coincidence = 1e-9;
+// Polylines have a corner where they turn by more than this: 35 degrees.
+inline constexpr double k_cos_corner = 0.8191520442889918;
 
 // All curves one after the other; curve c has the samples start[c] .. start[c + 1).
 struct Polylines {

@@ -41,7 +41,6 @@ struct ChainWalk {
 
 // The unit tangent at a place; zero at ends and corners, where none is known.
 static Vec3 tangent_at(const ChainWalk& walk, uint32_t i) {
-  constexpr double k_cos_bend = 0.8191520442889918;  // of 35 degrees
   const uint32_t before = walk.before(i), after = walk.after(i);
   if (before == k_none || after == k_none) return {};
   const Vec3 to = walk.point(i) - walk.point(before), from = walk.point(after) - walk.point(i);
@@ -63,7 +62,7 @@ static Vec3 speed(const Vec3& tangent, const Vec3& along, double chord, double b
 
 // Whether the segment from place i to the next bends at all.
 static bool cubic_of(const ChainWalk& walk, uint32_t i, Cubic* cubic) {
-  constexpr double k_least_bend = 1e-7;
+  constexpr double k_no_bend = 1e-7;
   const uint32_t k = walk.after(i), before = walk.before(i), after = walk.after(k);
   cubic->p = walk.point(i);
   cubic->q = walk.point(k);
@@ -74,7 +73,7 @@ static bool cubic_of(const ChainWalk& walk, uint32_t i, Cubic* cubic) {
   if (free_begin && free_end) return false;
   if (free_begin) leave = mirrored(reach, along);
   if (free_end) reach = mirrored(leave, along);
-  if (length(cross(leave, along)) + length(cross(reach, along)) < k_least_bend) return false;
+  if (length(cross(leave, along)) + length(cross(reach, along)) < k_no_bend) return false;
   const double begin = free_begin ? chord : length(cubic->p - walk.point(before));
   const double end = free_end ? chord : length(walk.point(after) - cubic->q);
   const double shorter = smaller(begin, end);

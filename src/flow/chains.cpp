@@ -174,7 +174,7 @@ static Bend bend_at(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
 
 // Polygons that people draw lie in planes, or are made of right angles; noise does neither.
 static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place) {
-  constexpr double k_least_part = 0.02;
+  constexpr double k_planar = 0.02;
   const uint32_t first = chains.start[chain], count = chains.start[chain + 1] - first;
   const uint32_t i = place - first;
   if (chains.closed[chain] == 0 && (i == 0 || i + 2 >= count)) return true;
@@ -184,7 +184,7 @@ static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
   const Vec3 across = cross(point(i) - point(i + count - 1), point(i + 1) - point(i));
   const Vec3 next = point(i + 2) - point(i + 1);
   const double part = std::fabs(dot(across, next)) / (length(across) * length(next));
-  return !(part > k_least_part && part < 1.0 - k_least_part);
+  return !(part > k_planar && part < 1.0 - k_planar);
 }
 
 // Of the noise, as the quarter of the samples that moved least show it: where curves are polygons

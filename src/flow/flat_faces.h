@@ -4,7 +4,7 @@
 // whether it lies in such a face, and whether the face is a polygon: at least half of its border is
 // straight, and has corners rather than bends. Found by flooding coplanar triangles of the walls
 // from the largest one on; a set counts if at each of its edges off the curves it lies on both
-// sides. O(triangles log triangles).
+// sides. O(triangles log triangles). Source: the rule is our own.
 #pragma once
 
 #include "flow/sheet.h"

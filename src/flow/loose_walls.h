@@ -7,7 +7,7 @@
 // ends in the middle of flat faces along a quarter of its border, or, with rooms on both sides or
 // none, on walls of any shape along nearly all of it; where three or more meet off the curves, the
 // two that continue each other most evenly do not end. What is passed first changes what closes the
-// other rooms, so this repeats, as long as it finds any. Near-linear a round.
+// other rooms, so this repeats, eight rounds at most. Near-linear a round. The rule is our own.
 #pragma once
 
 #include "flow/flat_faces.h"

@@ -3,6 +3,7 @@
 #include "mesh/chart.h"
 #include "mesh/dome.h"
 #include "mesh/loop_refine.h"
+#include "mesh/nearest.h"
 #include "num/minmax.h"
 #include "planar/insertion_order.h"
 #include "planar/region.h"
@@ -40,51 +41,6 @@ struct InlayWork {
 
 }  // namespace
 
-// Of the segment a b, as the weights of its ends.
-static void nearest_on_side(const Vec3& p, const Vec3& a, const Vec3& b, double* at_a,
-                            double* at_b) {
-  const Vec3 way = b - a;
-  const double square = dot(way, way), t = square > 0.0 ? dot(p - a, way) / square : 0.0;
-  *at_b = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
-  *at_a = 1.0 - *at_b;
-}
-
-Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 across = cross(b - a, c - a);
-  const double square = dot(across, across);
-  const Vec3 inside = {dot(cross(b - p, c - p), across), dot(cross(c - p, a - p), across),
-                       dot(cross(a - p, b - p), across)};
-  if (square > 0.0 && inside.x >= 0.0 && inside.y >= 0.0 && inside.z >= 0.0) {
-    return (1.0 / square) * inside;
-  }
-  Vec3 best[3];
-  nearest_on_side(p, a, b, &best[0].x, &best[0].y);
-  nearest_on_side(p, b, c, &best[1].y, &best[1].z);
-  nearest_on_side(p, c, a, &best[2].z, &best[2].x);
-  Vec3 nearest;
-  double least = DBL_MAX;
-  for (const Vec3& w : best) {
-    const Vec3 gap = w.x * a + w.y * b + w.z * c - p;
-    if (!(dot(gap, gap) < least)) continue;
-    least = dot(gap, gap);
-    nearest = w;
-  }
-  return nearest;
-}
-
-// Whether a place of a triangle lies on the border of the mesh, to which what is beside it
-// projects.
-static bool is_beside(const uint32_t* triangle, const Vec3& w, uint32_t rim) {
-  const double weight[3] = {w.x, w.y, w.z};
-  int held = 0, all = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (weight[k] == 0.0) continue;
-    ++all;
-    held += triangle[k] < rim;
-  }
-  return held == all && all < 3;
-}
-
 // The nearest place in the triangles round the nearest vertex.
 static Status find_feet(Span<const Vec3> position, Span<const uint32_t> triangle, InlayWork* work) {
   Context& context = work->flat.context();
@@ -111,7 +67,7 @@ static Status find_feet(Span<const Vec3> position, Span<const uint32_t> triangle
       if (!(dot(gap, gap) < least)) continue;
       least = dot(gap, gap);
       work->foot[i] = q;
-      beside = is_beside(t, w, work->rim);
+      beside = is_on_border(w, t, work->rim);
       flat = w.x * work->flat[t[0]] + w.y * work->flat[t[1]] + w.z * work->flat[t[2]];
     }
     if (beside) {
@@ -139,9 +95,8 @@ static bool in_the_way(const InlayWork& work, Span<const Vec3> position, const V
   for (size_t e = 0; e < work.inlay.edge.size(); e += 2) {
     const Vec3& a = drawn_at(work, position, work.inlay.edge[e]);
     const Vec3& b = drawn_at(work, position, work.inlay.edge[e + 1]);
-    double at_a = 0.0, at_b = 0.0;
-    nearest_on_side(p, a, b, &at_a, &at_b);
-    const Vec3 gap = at_a * a + at_b * b - p;
+    const Vec2 w = nearest_weights(p, a, b);
+    const Vec3 gap = w.x * a + w.y * b - p;
     if (dot(gap, gap) < room * room) return true;
   }
   return false;

@@ -8,8 +8,7 @@
 // refined, and shifted by the least bending field that carries the curves from the mesh to their
 // own place and holds the loops. Invariants: every edge given is an edge of the mesh, which stays a
 // manifold of the same kind. Cost: two factorisations of the size of the mesh, and the points and
-// edges given times the vertices. Source: P. Schneider, D. Eberly, "Geometric Tools for Computer
-// Graphics", 2003 (nearest point of a triangle).
+// edges given times the vertices. Sources: those of mesh/chart.h, planar/region.h and mesh/dome.h.
 #pragma once
 
 #include "base/array.h"
@@ -27,8 +26,5 @@ struct Inlay {
 // the place's vertex is then the number of a point concerned, or k_none.
 Status inlay_curves(Context& context, Span<const uint32_t> start, const Inlay& inlay,
                     double spacing, Array<Vec3>* position, Array<uint32_t>* triangle);
-
-// The point of the triangle a b c nearest to p, by its weights at the corners.
-Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace wireskin::mesh

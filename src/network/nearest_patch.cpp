@@ -1,6 +1,6 @@
 #include "network/nearest_patch.h"
 
-#include "mesh/inlay.h"
+#include "mesh/nearest.h"
 #include "network/patch_in_space.h"
 #include "num/minmax.h"
 
@@ -86,14 +86,7 @@ static Foot find_foot(const PatchGuesses& guesses, const PatchGuess& guess, cons
     const Vec3 w = mesh::nearest_weights(p, a, b, c);
     const double distance = length(w.x * a + w.y * b + w.z * c - p);
     if (!(distance < foot.distance)) continue;
-    const double weight[3] = {w.x, w.y, w.z};
-    bool rim = false, inner = false;
-    for (int k = 0; k < 3; ++k) {
-      if (weight[k] == 0.0) continue;
-      (v[k] < guess.rim ? rim : inner) = true;
-    }
-    const bool all = weight[0] != 0.0 && weight[1] != 0.0 && weight[2] != 0.0;
-    foot = {distance, unit(cross(b - a, c - a)), rim && !inner && !all};
+    foot = {distance, unit(cross(b - a, c - a)), mesh::is_on_border(w, v, guess.rim)};
   }
   return foot;
 }

@@ -3,8 +3,8 @@
 //
 // In: borders, then pieces as vertices. Out: for each piece the patch that it is nearest to, if it
 // lies beside that surface nowhere: each vertex projects to its inside, no farther off than a share
-// of the root of its area, and normals agree in the mean. O(patches + pieces times patches whose
-// boxes they meet).
+// of the root of its area, and normals agree in the mean. O(patches + pieces times triangles of
+// patches whose boxes they meet). Source: the rule is our own.
 #pragma once
 
 #include "network/border.h"

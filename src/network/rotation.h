@@ -7,7 +7,8 @@
 // border all other curves leave to one side of it, the same along the whole border: where tangents
 // deny that, as splines do where a polygon turns sharply or another curve meets the border at a
 // small angle, secants and chords are asked, too, and the clearer nodes of the border decide on
-// the side. O(samples + segments log segments).
+// the side. O(samples + segments log segments). Source: J. Edmonds, "A Combinatorial Representation
+// for Polyhedral Surfaces", 1960 (rotation systems); the order where tangents fail is our own.
 #pragma once
 
 #include "curves/sides.h"

@@ -3,14 +3,12 @@
 // positions and normals; or one over the whole network where the noise is stated.
 //
 // In: thinned samples; those of a node agree and stay one. Out, in place: smoothed positions and
-// unit normals, all copies of a node the same bit for bit, and how much noise was found. Components
-// stay as they are where not even the least weight pays, where there are too few samples to tell
-// noise from shape, and where a curve would change its size. Closed curves are smoothed across
-// their ends; sharp turns survive at ends and corners only. Scaling the positions by a power of two
-// scales the result exactly. Cost: an analysis and some twenty factorisations where there are many
-// samples, a hundred at most.
-// Sources: P. Craven, G. Wahba, "Smoothing Noisy Data with Spline Functions", 1979; V. Morozov, "On
-// the Solution of Functional Equations by the Method of Regularization", 1966, for given noise.
+// unit normals, and how much noise was found. Components stay as they are where not even the least
+// weight pays, where samples are too few to tell noise from shape, and where a curve would change
+// its size. Closed curves are smoothed across their ends; sharp turns survive at ends and corners
+// only. Cost: an analysis and some twenty factorisations, a hundred at most. Sources: P. Craven, G.
+// Wahba, "Smoothing Noisy Data with Spline Functions", 1979; V. Morozov, "On the Solution of
+// Functional Equations by the Method of Regularization", 1966, for given noise.
 #pragma once
 
 #include "network/roughness.h"

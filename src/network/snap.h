@@ -2,15 +2,13 @@
 // other.
 //
 // In: welded, chained curves and a tolerance. Local minima of the distance between curves are taken
-// nearest first and left alone where the network connects their places already within four
-// tolerances (a loose end: four times the distance, two: twice); an end or a node no farther than
-// the tolerance takes part instead of a place near it. Insides are joined only where the curves
-// were in different components, or cross: at a quarter of the tolerance, or at a hundredth in a
-// network that is complete. Where three quarters of the gaps are next to nothing (curves drawn on a
-// surface), every crossing gets its point, ends are settled first, and curves side by side are
-// joined only where nothing else joins their components. Out: the curves, bent (network/bend.h),
-// points that were joined staying and ends coming to insides; the list of joints. Cost: that of the
-// approaches and of a search over the samples within four tolerances for each.
+// in the order of network/snap_order.h and left alone where the network connects their places
+// already within four tolerances (a loose end: four times the distance, two: twice); an end or a
+// node no farther than the tolerance takes part instead of a place near it. Insides are joined only
+// where the curves were in different components, or cross: at a quarter of the tolerance, or at a
+// hundredth in a network that is complete; of exact curves every crossing gets its point, and those
+// side by side are joined only where nothing else joins their components. Out: the curves, bent
+// (network/write_beads.h); the joints. Cost: the approaches', and a search within four tolerances.
 #pragma once
 
 #include "network/approach.h"

@@ -196,9 +196,16 @@ static void sort_column(size_t first, sparse::Csc* matrix) {
   }
 }
 
-// The matrix of the least squares problem: first the rows of the split mesh, then one row a vertex
-// for the Laplacian of h, then one a vertex for the springs and one for the curvature foretold.
-// Columns are the unknowns, u and h of a vertex next to each other.
+// The integrated Laplacian of the displaced positions, on the split mesh, is asked to be -2 m h n,
+// and h to have the least square Laplacian:
+//   sum_r (g_r - (L u)_r - 2 m_r h_i(r))^2 / m_r + (c l)^4 h^T (Ls M^-1 Ls) h,
+//   g_r = -<(L v)_r + c_r, n_i(r)>,
+// and, where the curves foretell H on them (node_curvature.h), c l w (h - H)^2 more. There c_r is
+// the conormal of the patch's rim, made from the curve's positions and the given normals: that is
+// how these normals enter. Split rows are essential, merged ones never see them.
+// The matrix: first the rows of the split mesh, then one row a vertex for the Laplacian of h, then
+// one a vertex for the springs and one for the curvature foretold. Columns are the unknowns, u and
+// h of a vertex next to each other.
 Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
                                    Span<const double> split_area, Span<const uint32_t> origin,
                                    const sparse::Csc& laplacian, sparse::Csc* rows) const {
@@ -243,7 +250,10 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
   return {};
 }
 
-// Row weights and right-hand side, g in the header.
+// Row weights and right-hand side, g. On open borders the rows of the Laplacian of h are left out.
+// Where a border's normal is not known it has no conormal: there that row stays, as the natural
+// condition, and the first one's place is taken by a slight pull of h towards zero, without which a
+// patch of no known normal at all could have any constant h.
 static void make_targets(const DisplaceInput& input, const SplitMesh& split,
                          Span<const double> area, Span<const Vec3> normal, Span<double> weight,
                          Span<double> target) {

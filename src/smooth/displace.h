@@ -2,21 +2,12 @@
 // curvature of the surface is as smooth as it can be while the surface meets the normals given on
 // the curves.
 //
-// Unknowns: a displacement u per free vertex and a mean curvature h per vertex. On the mesh split
-// along the curves (a held vertex has one row in each patch it touches, on each side of a curve)
-// the integrated Laplacian of the displaced positions is asked to be -2 m h n, and h to have the
-// least square Laplacian:
-//   sum_r (g_r - (L u)_r - 2 m_r h_i(r))^2 / m_r + (c l)^4 h^T (Ls M^-1 Ls) h,
-//   g_r = -<(L v)_r + c_r, n_i(r)>,
-// and, where the curves foretell H on them (node_curvature.h), c l w (h - H)^2 more. There c_r is
-// the conormal of the patch's rim, made from the curve's positions and the given
-// normals: that is how these normals enter. Split rows are essential, merged ones never see them.
-// On open borders the rows of the last term are left out. Where a border's normal is not known it
-// has no conormal: there the row of the last term stays, as the natural condition, and the first
-// one's place is taken by a slight pull of h towards zero, without which a patch of no known normal
-// at all could have any constant h. One factorisation of size 2 n. Source: H. Moreton, C. Sequin,
-// "Functional Optimization for Fair Surface Design", 1992 (minimum variation surfaces), linearised
-// along the normals.
+// Unknowns: a displacement u per free vertex and a mean curvature h per vertex, over the mesh split
+// along the curves (a held vertex has one row in each patch that it touches, on each side of a
+// curve). The rows stand at their function in displace.cpp. One factorisation of size 2 n; next
+// steps solve similar systems by conjugate gradients with an old factor.
+// Source: H. Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992 (minimum
+// variation surfaces), linearised along the normals.
 #pragma once
 
 #include "mesh/operators.h"

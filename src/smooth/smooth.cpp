@@ -90,7 +90,10 @@ static void make_unit(const Domain& domain, const Field& field) {
   }
 }
 
-// In the planes there are no conormals, and nothing to aim at.
+// Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its
+// row is left out, and there is nothing to aim at. In space it is known up to the outer conormal c
+// of the border (L v + c = -2 h m n), so the row stays, with c taken from the positions and normals
+// given on the border; where none is given there is no c, and the row is left out.
 static Status aim_at_conormals(Context& context, const Domain& domain, const Field& field,
                                Guided* guided) {
   if (domain.metric == Metric::planes) return {};

@@ -3,17 +3,11 @@
 //
 // In: a mesh with the shape of each triangle in the metric to smooth in (each patch's plane, or
 // space), held vertices with positions and unit normals. Out: all positions, the propagated normals
-// (unit, for the methods that use them) and the residual of the last solve.
-//
-// The paper's method propagates normals N and positions V biharmonically, takes from them the mean
-// curvature h of formula (1), and finds the positions whose Laplacian fits -2 h N best: one matrix
-// K = L M^-1 L, factored once, for all three.
-//
-// Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its
-// row is left out. In space it is known up to the outer conormal c of the border (L v + c = -2 h m
-// n), so the row stays, with c taken from the positions and normals given on the border; where none
-// is given there is no c, and the row is left out. Source: T.
-// Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, sections 3.4 and 4.2.
+// (unit, for the methods that use them) and the residual of the last solve. The paper's method
+// propagates normals N and positions V biharmonically, takes from them the mean curvature h of
+// formula (1), and finds the positions whose Laplacian fits -2 h N best: one matrix K = L M^-1 L,
+// factored once, for all three. Source: T. Stanko et al., "Surfacing Curve Networks with Normal
+// Control", 2016, sections 3.4 and 4.2.
 #pragma once
 
 #include "mesh/operators.h"

@@ -1,17 +1,15 @@
 // The linear systems of variational smoothing: vertex values that minimise the weighted square of
 // their Laplacian, with some vertices held.
 //
-// Order 1 minimises the Dirichlet energy, with the matrix -L (no weights, no targets); order 2
-// minimises sum_r w_r |(L v)_r - T_r|^2 over the free values, with the matrix K = L W L; order 3
-// minimises the Dirichlet energy of W L v, with L W (-L) W L (targets zero). L is the integrated
-// cotangent Laplacian, w the inverse vertex areas; a weight of zero leaves a row out. K is positive
-// definite when every component holds a vertex and the free rows stay in. One factor serves any
-// number of fields, several in one sweep; new weights keep the ordering and the symbolic analysis.
-// Where the factor of K would not fit under the memory cap, conjugate gradients take its place,
-// with the inverse of L_ff W^-1 L_ff as preconditioner (laplacian_pairs.h; order 3: one factor
-// more): the factor of L_ff is a quarter of K's. Order 1 has no way out but the status. Cost: see
-// sparse/cholesky.h.
-// Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004.
+// L is the integrated cotangent Laplacian, w the inverse vertex areas, or 0 to leave a row out.
+// Order 1 minimises the Dirichlet energy, with the matrix -L; order 2 sum_r w_r |(L v)_r - T_r|^2
+// over the free values, with K = L W L; order 3 the Dirichlet energy of W L v, with L W (-L) W L. K
+// is positive definite when every component holds a vertex and the free rows stay in. One factor
+// serves any number of fields; new weights keep the symbolic analysis. Where the factor of K would
+// not fit under the memory cap, conjugate gradients take its place, preconditioned by the inverse
+// of L_ff W^-1 L_ff (laplacian_pairs.h, a quarter of K's factor; order 1 has no way out). Cost: see
+// sparse/cholesky.h. Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform
+// Modeling", 2004.
 #pragma once
 
 #include "num/vec.h"

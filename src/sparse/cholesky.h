@@ -1,14 +1,11 @@
 // Cholesky factorisation of a sparse symmetric positive definite matrix, P A P^T = L L^T, in three
 // steps: analyse the pattern once, factor as often as the values change, solve as often as there
-// are right-hand sides. Multifrontal: each supernode is assembled from the matrix and from the
-// update matrices of its children, and factored as a dense panel.
-//
-// Invariants: a failed analyse() or factor() leaves no factor behind, and solve() then says so. The
-// same input gives the same bits, for a first factor() and a repeated one, for one right-hand side
-// and for many, for every instruction set and any number of threads. Memory: factor_bytes(), which
-// the first factor() allocates and later ones use again, 2 words per entry of the matrix, about 8
-// per column.
-//
+// are right-hand sides. Multifrontal: each supernode is assembled from the matrix and the update
+// matrices of its children, and factored as a dense panel. Invariants: a failed analyse() or
+// factor() leaves no factor behind, and solve() then says so; the same bits for a first factor()
+// and a repeated one, for one right-hand side and for many, for every instruction set and any
+// number of threads. Memory: factor_bytes(), used again by later factors, 2 words per entry of the
+// matrix, about 8 per column.
 // Sources: Iain Duff, John Reid, "The Multifrontal Solution of Indefinite Sparse Symmetric Linear
 // Equations", 1983; Esmond Ng, Barry Peyton, "Block Sparse Cholesky Algorithms on Advanced
 // Uniprocessor Computers", 1993.

@@ -3,12 +3,13 @@
 //
 // In: a flow and a reconstruction of it, the caller's normals or none. Out: the surface with
 // patches, curve edges and the counts of the report. Curves that bound no patch stay in it as curve
-// edges. Without normals, where more than two patches meet at a curve, where a border is no curve
-// and where smoothing would make triangles cross, the remeshed patches are the result; curvatures
-// are zero then where the mesh is no manifold. For smoothing, vertices between two samples of a
-// curve move off the segment to where the normals at its ends bend it. Cost: that of remeshing
-// (flow/remesh.h) and of one smoothing. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape
-// Reconstruction from 3D Curves", 2014; A. Vlachos et al., "Curved PN Triangles", 2001.
+// edges. Without normals, where more than two patches meet at a curve, where a border is no curve,
+// where normals contradict the surface, and where smoothing fails or makes triangles cross, the
+// remeshed patches are the result; curvatures are zero then where the mesh is no manifold. For
+// smoothing, vertices between two samples of a curve move off the segment to where the normals at
+// its ends bend it. Cost: that of remeshing (flow/remesh.h) and of one smoothing. Sources: B. Sadri,
+// K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014; A. Vlachos et al.,
+// "Curved PN Triangles", 2001.
 #pragma once
 
 #include "flow/remesh.h"

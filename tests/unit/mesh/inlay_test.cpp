@@ -149,23 +149,3 @@ TEST_CASE("curves that cross, and curves that leave the tube, are refused by the
   const std::vector<Vec3> outside = {on_tube(0, 1.5), on_tube(0.1, 2.5)};
   CHECK(Tube(2.0).inlay(outside, {80, 81}).code == Code::patch_folded);
 }
-
-TEST_CASE("the nearest place of a triangle") {
-  const Vec3 a = {0, 0, 0}, b = {2, 0, 0}, c = {0, 2, 0};
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> some(-3.0, 3.0);
-  for (int k = 0; k < 500; ++k) {
-    const Vec3 p = {some(random), some(random), some(random)};
-    const Vec3 w = mesh::nearest_weights(p, a, b, c);
-    CHECK(w.x + w.y + w.z == doctest::Approx(1.0));
-    const double found = length(w.x * a + w.y * b + w.z * c - p);
-    double least = 1e9;
-    for (int i = 0; i <= 60; ++i) {
-      for (int j = 0; i + j <= 60; ++j) {
-        least = std::fmin(least, length((i / 60.0) * b + (j / 60.0) * c - p));
-      }
-    }
-    CHECK(found <= least + 1e-12);
-    CHECK(found > least - 0.05);
-  }
-}

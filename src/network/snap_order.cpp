@@ -1,0 +1,58 @@
+#include "network/snap_order.h"
+
+namespace wireskin::network {
+
+bool run_along(const Vec3& a, const Vec3& b) {
+  constexpr double k_sine = 0.17;
+  return length(cross(a, b)) < k_sine;
+}
+
+// Whether an end of a curve clearly meets the other curve.
+static bool ends_on(const Wires& wires, Span<const uint32_t> curve, double near,
+                    const Approach& approach) {
+  const auto near_end = [&](const WirePlace& place, const Vec3& at) {
+    const uint32_t c = curve[place.edge];
+    if (wires.closed[c]) return false;
+    const Vec3 &first = wires.position[wires.start[c]],
+               &last = wires.position[wires.start[c + 1] - 1];
+    return length(first - at) <= near || length(last - at) <= near;
+  };
+  return approach.distance <= near &&
+         (near_end(approach.a, approach.at_a) || near_end(approach.b, approach.at_b));
+}
+
+// Whether the curves pass each other side by side there instead of crossing: they run along each
+// other, or the gap between them lies in the surface.
+static bool is_beside(const Beads& beads, const Approach& approach) {
+  const Vec3 gap = unit(approach.at_b - approach.at_a);
+  const Vec3 along_a = unit(beads.direction_at(approach.a)),
+             along_b = unit(beads.direction_at(approach.b));
+  const auto square = [](double x) { return x * x; };
+  // One goes on where the other one ends.
+  if (square(dot(gap, along_a)) + square(dot(gap, along_b)) > 0.5) return false;
+  const Vec3 a = beads.normal_at(approach.a), b = beads.normal_at(approach.b);
+  if (a != Vec3{} && b != Vec3{}) {
+    return square(dot(gap, unit(a))) + square(dot(gap, unit(b))) < 0.5;
+  }
+  return run_along(along_a, along_b);
+}
+
+Status plan_snaps(const Beads& beads, double tolerance, bool complete,
+                  Span<const Approach> approaches, SnapPlan* plan) {
+  TRY(plan->pass.resize(approaches.size()));
+  size_t others = 0, exact = 0;
+  for (size_t k = 0; k < approaches.size(); ++k) {
+    const Approach& approach = approaches[k];
+    const bool touches = approach.distance <= k_exact * tolerance;
+    const bool beside = !touches && is_beside(beads, approach);
+    const bool ends = ends_on(beads.wires, beads.curve.span(), k_crossing * tolerance, approach);
+    plan->pass[k] = beside ? SnapPass::beside : ends ? SnapPass::settled : SnapPass::crosses;
+    others += !beside;
+    exact += touches;
+  }
+  plan->exact = !complete && 4 * exact >= 3 * others;
+  for (size_t k = 0; k < plan->pass.size() && !plan->exact; ++k) plan->pass[k] = SnapPass::crosses;
+  return {};
+}
+
+}  // namespace wireskin::network
