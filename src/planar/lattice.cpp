@@ -64,13 +64,19 @@ static LatticeFrame frame_of(Span<const LatticeObstacle> obstacles, double spaci
   return frame;
 }
 
+// How far inside of a border of this size the sizes reach the spacing, all in spacings.
+static double grading_distance(double size) {
+  if (size >= 1.0) return (size - 1.0) / k_size_descent;
+  const double fine = larger(k_fine_size - size, 0.0);
+  return fine / k_size_growth_fine + (1.0 - size - fine) / k_size_growth;
+}
+
 static ClearedEdge clear_edge(const LatticeFrame& frame, const LatticeObstacle& obstacle,
                               uint32_t index) {
   ClearedEdge edge = {frame.enter(obstacle.a), frame.enter(obstacle.b), 0.0, 0.0, 0.0, index,
                       obstacle.border};
   const double size = obstacle.size / frame.spacing;
-  edge.radius =
-      k_clearance + (size < 1.0 ? (1.0 - size) / k_size_growth : (size - 1.0) / k_size_descent);
+  edge.radius = k_clearance + grading_distance(size);
   edge.low = smaller(edge.a.y, edge.b.y) - edge.radius;
   edge.high = larger(edge.a.y, edge.b.y) + edge.radius;
   return edge;

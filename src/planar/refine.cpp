@@ -65,7 +65,10 @@ static uint32_t pop_triangle(Refiner* r) {
 }
 
 static double drift(double size, double spacing, double distance) {
-  if (size < spacing) return smaller(size + k_size_growth * distance, spacing);
+  if (size < spacing) {
+    const double growth = size < k_fine_size * spacing ? k_size_growth_fine : k_size_growth;
+    return smaller(size + growth * distance, spacing);
+  }
   return larger(size - k_size_descent * distance, spacing);
 }
 
