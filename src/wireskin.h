@@ -794,7 +794,7 @@ typedef struct wsk_flow_view {
   uint32_t tetrahedron_count;
   uint32_t
       critical_count[4];  /* points, saddles of index 1 and 2, maxima: their alternating sum is 1 */
-  uint32_t split_count;   /* segments halved because a sample came too near */
+  uint32_t split_count;   /* segments divided because a sample came too near */
   uint32_t crowded_count; /* segments that should have been, but were too short already */
   uint32_t missing_count; /* segments without an edge in the complex: none in sound input */
   uint32_t void_count;

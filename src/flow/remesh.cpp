@@ -38,6 +38,25 @@ struct OwnTriangles {
   }
 };
 
+// Flat ears that several sheets meet at, and tails that are no wider: between a stretch of a curve
+// and the edge ab that passes over it. Instead of all ending at ab, each sheet goes on to the
+// curve, and the ear is left out.
+struct SharedEars {
+  Array<uint32_t> first;  // of each edge of the complex: ab's place in `inner`, or k_none
+  Array<uint32_t> inner;  // samples between a and b, from the edge's first end on, then k_none
+  Array<uint32_t> left_out_for;  // of each triangle: the edge whose ear it is in, or k_none
+
+  explicit SharedEars(Context& context) : first(context), inner(context), left_out_for(context) {}
+};
+
+constexpr uint32_t k_most_of_ear = 32;
+constexpr double k_flat_ear = 0.25;  // height, of the length of ab
+
+struct Ear {
+  uint32_t triangle[k_most_of_ear], border[k_most_of_ear], inner[k_most_of_ear];
+  uint32_t count = 0, borders = 0;
+};
+
 struct LocalMesh {
   Array<uint32_t> parent;  // corners that are one vertex, by union-find
   Array<uint32_t> number;
@@ -50,17 +69,95 @@ struct LocalMesh {
 
 }  // namespace
 
-static Status gather_own(const Reconstruction& r, OwnTriangles* own) {
+// The triangles from t on that no curve or branch parts, up to k_most_of_ear; their other borders.
+static bool flood_ear(const Flow& flow, const Sheet& walls, uint32_t chord, Ear* ear) {
+  const Complex& complex = flow.complex;
+  ear->borders = 0;
+  for (uint32_t i = 0; i < ear->count; ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{ear->triangle[i]} + k];
+      if (e == chord) continue;
+      if (flow.curves.on_curve(e)) {
+        if (ear->borders == k_most_of_ear) return false;
+        ear->border[ear->borders++] = e;
+        continue;
+      }
+      if (walls.degree[e] != 2) return false;
+      for (const uint32_t u : complex.triangles_of(e)) {
+        bool known = walls.in[u] == 0;
+        for (uint32_t j = 0; j < ear->count; ++j) known = known || ear->triangle[j] == u;
+        if (known) continue;
+        if (ear->count == k_most_of_ear) return false;
+        ear->triangle[ear->count++] = u;
+      }
+    }
+  }
+  // A disc without a vertex inside.
+  return ear->borders == ear->count + 1;
+}
+
+// Orders the border from one end of the chord to the other; false if it is no path close to it.
+static bool walk_ear(const Flow& flow, uint32_t chord, Ear* ear) {
+  const Complex& complex = flow.complex;
+  const uint32_t from = complex.edge[2 * size_t{chord}], to = complex.edge[2 * size_t{chord} + 1];
+  const Vec3 &a = complex.point[from], along = complex.point[to] - a;
+  uint32_t at = from;
+  for (uint32_t i = 0; i < ear->borders; ++i) {
+    uint32_t next = k_none;
+    for (uint32_t j = i; j < ear->borders && next == k_none; ++j) {
+      const uint32_t* const end = &complex.edge[2 * size_t{ear->border[j]}];
+      if (end[0] != at && end[1] != at) continue;
+      next = end[0] == at ? end[1] : end[0];
+      ear->border[j] = ear->border[i];
+    }
+    if (next == k_none || (next == to) != (i + 1 == ear->borders)) return false;
+    const double off = length(cross(complex.point[next] - a, along));
+    if (off > k_flat_ear * dot(along, along)) return false;
+    ear->inner[i] = at = next;
+  }
+  return true;
+}
+
+static Status find_shared_ears(const Flow& flow, const Reconstruction& r, SharedEars* ears) {
+  const Complex& complex = flow.complex;
+  const Sheet& walls = r.topology.walls;
+  TRY(ears->first.assign(complex.edge_count(), k_none));
+  TRY(ears->left_out_for.assign(complex.triangle_count(), k_none));
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (walls.degree[e] < 3 || flow.curves.on_curve(e)) continue;
+    Ear found, ear;
+    uint32_t flat = 0;
+    for (const uint32_t t : complex.triangles_of(e)) {
+      if (walls.in[t] == 0) continue;
+      ear.count = 1;
+      ear.triangle[0] = t;
+      if (!flood_ear(flow, walls, e, &ear) || !walk_ear(flow, e, &ear)) continue;
+      found = ear;
+      ++flat;
+    }
+    if (flat != 1) continue;
+    ears->first[e] = static_cast<uint32_t>(ears->inner.size());
+    for (uint32_t i = 0; i + 1 < found.borders; ++i) TRY(ears->inner.push(found.inner[i]));
+    TRY(ears->inner.push(k_none));
+    for (uint32_t i = 0; i < found.count; ++i) ears->left_out_for[found.triangle[i]] = e;
+  }
+  return {};
+}
+
+static Status gather_own(const Reconstruction& r, const SharedEars& ears, OwnTriangles* own) {
   const Array<uint32_t>& owner = r.patches.owner;
   TRY(own->start.assign(size_t{r.patches.size()} + 1, 0));
   TRY(own->triangle.resize(owner.size()));
   TRY(own->place.assign(owner.size(), k_none));
-  for (const uint32_t p : owner) {
-    if (p != k_none) ++own->start[p];
+  const auto is_own = [&](uint32_t t) {
+    return owner[t] != k_none && ears.left_out_for[t] == k_none;
+  };
+  for (uint32_t t = 0; t < owner.size(); ++t) {
+    if (is_own(t)) ++own->start[owner[t]];
   }
   own->triangle.shrink(starts_from_counts(own->start.span()));
   for (uint32_t t = 0; t < owner.size(); ++t) {
-    if (owner[t] != k_none) own->triangle[own->start[owner[t]]++] = t;
+    if (is_own(t)) own->triangle[own->start[owner[t]]++] = t;
   }
   for (size_t p = r.patches.size(); p > 0; --p) own->start[p] = own->start[p - 1];
   own->start[0] = 0;
@@ -149,10 +246,63 @@ static Status cut_out(const Flow& flow, const Reconstruction& r, Span<const uint
   return {};
 }
 
+// Splits the triangle with the side uv, among i and those from `begin` on, into a fan over the
+// samples that an ear has between u and v.
+static Status fan_out(const Flow& flow, Span<const uint32_t> inner, bool backward, uint32_t u,
+                      uint32_t v, uint32_t i, uint32_t begin, LocalMesh* local) {
+  Array<uint32_t>& triangle = local->triangle;
+  uint32_t at = i, k = 0;
+  const auto has_side = [&] {
+    return triangle[3 * size_t{at} + k] == u && triangle[3 * size_t{at} + (k + 1) % 3] == v;
+  };
+  for (uint32_t next = begin; !has_side();) {
+    if (++k < 3) continue;
+    k = 0;
+    at = next++;
+  }
+  const uint32_t apex = triangle[3 * size_t{at} + (k + 2) % 3];
+  for (size_t j = 0; j < inner.size(); ++j) {
+    const uint32_t m = inner[backward ? inner.size() - 1 - j : j];
+    const uint32_t number = static_cast<uint32_t>(local->position.size());
+    TRY(local->position.push(flow.samples.position[m]));
+    TRY(local->sample.push(m));
+    TRY(triangle.push(u));
+    TRY(triangle.push(number));
+    TRY(triangle.push(apex));
+    u = number;
+  }
+  const uint32_t last[3] = {u, v, apex};
+  for (uint32_t c = 0; c < 3; ++c) triangle[3 * size_t{at} + c] = last[c];
+  return {};
+}
+
+// Lets the triangles at shared ears go on to the curves.
+static Status reach_curves(const Flow& flow, const Reconstruction& r, const SharedEars& ears,
+                           Span<const uint32_t> part, LocalMesh* local) {
+  for (uint32_t i = 0; !ears.inner.empty() && i < part.size(); ++i) {
+    const uint32_t begin = static_cast<uint32_t>(local->triangle.size() / 3);
+    uint32_t corner[3];
+    for (uint32_t k = 0; k < 3; ++k) corner[k] = local->triangle[3 * size_t{i} + k];
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t opposite = turned_corner(r, part[i], (k + 2) % 3);
+      const uint32_t e = flow.complex.triangle_edge[3 * size_t{part[i]} + opposite];
+      const uint32_t first = ears.first[e];
+      if (first == k_none) continue;
+      uint32_t count = 0;
+      while (ears.inner[first + count] != k_none) ++count;
+      const bool backward = local->sample[corner[k]] != flow.complex.edge[2 * size_t{e}];
+      TRY(fan_out(flow, ears.inner.span().part(first, count), backward, corner[k],
+                  corner[(k + 1) % 3], i, begin, local));
+    }
+  }
+  return {};
+}
+
 static Status refine_one(Context& context, const Flow& flow, const Reconstruction& r,
-                         const OwnTriangles& own, uint32_t p, double spacing, LocalMesh* local,
-                         RefinedPatches* refined) {
+                         const SharedEars& ears, const OwnTriangles& own, uint32_t p,
+                         double spacing, LocalMesh* local, RefinedPatches* refined) {
   TRY(cut_out(flow, r, own.of(p), own.place.span(), local));
+  TRY(reach_curves(flow, r, ears, own.of(p), local));
   const size_t held = local->position.size();
   if (refined->effort[p] != k_untouched) {
     const Status status =
@@ -161,7 +311,7 @@ static Status refine_one(Context& context, const Flow& flow, const Reconstructio
     // A patch that is no surface (it touches itself along an edge) stays as it is.
     if (status.code == Code::bad_mesh) {
       refined->effort[p] = k_untouched;
-      return refine_one(context, flow, r, own, p, spacing, local, refined);
+      return refine_one(context, flow, r, ears, own, p, spacing, local, refined);
     }
     TRY(status);
   }
@@ -248,34 +398,72 @@ static Status move_to_complex(Context& context, const Flow& flow, Array<uint32_t
   return {};
 }
 
-Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& reconstruction,
-                    double spacing, FlowMesh* mesh) {
+// Refines all patches with as much effort as leaves them free of crossings.
+static Status refine_all(Context& context, const Flow& flow, const Reconstruction& reconstruction,
+                         const SharedEars& ears, double spacing, Array<uint32_t>* pairs,
+                         FlowMesh* mesh) {
   const bool refine = spacing > 0.0;
   const uint32_t patches = reconstruction.patches.size();
   OwnTriangles own(context);
   LocalMesh local(context);
   RefinedPatches refined(context);
   Array<uint8_t> again(context);
-  Array<uint32_t> pairs(context);
-  TRY(gather_own(reconstruction, &own));
+  TRY(gather_own(reconstruction, ears, &own));
   TRY(refined.effort.assign(patches, refine ? k_full : k_untouched));
   TRY(refined.slice.assign(patches, Slice{}));
   TRY(again.assign(patches, 1));
   while (true) {
     for (uint32_t p = 0; p < patches; ++p) {
       if (again[p] == 0) continue;
-      TRY(refine_one(context, flow, reconstruction, own, p, spacing, &local, &refined));
+      TRY(refine_one(context, flow, reconstruction, ears, own, p, spacing, &local, &refined));
       TRY(context.checkpoint());
     }
     TRY(assemble(flow, refined, mesh));
-    TRY(find_crossings(context, mesh->position.span(), mesh->triangle.span(), k_most_pairs,
-                       &pairs));
-    if (!hold_back(*mesh, pairs.span(), refined.effort.span(), again.span())) break;
+    TRY(find_crossings(context, mesh->position.span(), mesh->triangle.span(), k_most_pairs, pairs));
+    if (!hold_back(*mesh, pairs->span(), refined.effort.span(), again.span())) break;
+  }
+  mesh->held_back = 0;
+  for (const uint8_t effort : refined.effort) mesh->held_back += refine && effort != k_full;
+  return {};
+}
+
+// Gives up the ears that patches in crossings have, for only the complex itself is sure to be
+// embedded; true if there were any.
+static bool give_up_ears(const Flow& flow, const Reconstruction& r, Span<const uint8_t> crossing,
+                         SharedEars* ears) {
+  bool any = false;
+  for (uint32_t e = 0; e < flow.complex.edge_count(); ++e) {
+    if (ears->first[e] == k_none) continue;
+    for (const uint32_t t : flow.complex.triangles_of(e)) {
+      const uint32_t owner = r.patches.owner[t];
+      if (owner != k_none && crossing[owner] != 0) ears->first[e] = k_none;
+    }
+    any = any || ears->first[e] == k_none;
+  }
+  for (uint32_t& e : ears->left_out_for) {
+    if (e != k_none && ears->first[e] == k_none) e = k_none;
+  }
+  return any;
+}
+
+Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& reconstruction,
+                    double spacing, FlowMesh* mesh) {
+  SharedEars ears(context);
+  Array<uint32_t> pairs(context);
+  Array<uint8_t> crossing(context);
+  TRY(find_shared_ears(flow, reconstruction, &ears));
+  TRY(refine_all(context, flow, reconstruction, ears, spacing, &pairs, mesh));
+  TRY(crossing.assign(reconstruction.patches.size(), 0));
+  for (int round = 0; !ears.inner.empty() && !pairs.empty(); ++round) {
+    constexpr int k_most_rounds = 3;
+    const bool all = round + 1 >= k_most_rounds || pairs.size() >= 2 * k_most_pairs;
+    for (const uint32_t t : pairs) crossing[mesh->patch[t]] = 1;
+    for (uint8_t& flag : crossing) flag = all ? 1 : flag;
+    if (!give_up_ears(flow, reconstruction, crossing.span(), &ears)) break;
+    TRY(refine_all(context, flow, reconstruction, ears, spacing, &pairs, mesh));
   }
   TRY(move_to_complex(context, flow, &pairs, mesh));
   mesh->crossings = static_cast<uint32_t>(pairs.size() / 2);
-  mesh->held_back = 0;
-  for (const uint8_t effort : refined.effort) mesh->held_back += refine && effort != k_full;
   return {};
 }
 

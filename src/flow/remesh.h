@@ -7,9 +7,10 @@
 // each other take a smaller effort next time: no relaxation, at last no refinement, which is the
 // embedded complex itself; triangles of it that cross all the same, because curves all but touch,
 // get the complex's own, jittered points. Without spacing all patches are left as they are. Every
-// triangle of the walls occurs once, ears and tails in their first patch. Near-linear in the
-// result. Source of the remeshing to fair patches: B. Sadri, K. Singh, "Flow-Complex-Based Shape
-// Reconstruction from 3D Curves", 2014, section 5.
+// triangle of the walls occurs once, ears and tails in their first patch; but flat ones that
+// several sheets end at are left out, and each sheet goes on to the curve, unless that makes
+// triangles cross. Near-linear in the result. Source of the remeshing to fair patches: B. Sadri, K.
+// Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 5.
 #pragma once
 
 #include "flow/flow.h"

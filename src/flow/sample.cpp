@@ -64,6 +64,13 @@ struct StationLine {
   }
 };
 
+// A sample in the diametral ball of a segment.
+struct Encroacher {
+  uint32_t sample = k_none;
+  double share = 0.0;  // of the segment, up to its foot
+  double gap = 0.0;    // its distance from there
+};
+
 }  // namespace
 
 static uint32_t pieces_for(double length, double step) {
@@ -310,14 +317,28 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
   return {};
 }
 
-static bool encroached(const PointGrid& grid, const Samples& samples, uint32_t i) {
+// The sample in the segment's diametral ball whose foot on it is nearest to the middle.
+// Not one that all but coincides with an end.
+static Encroacher find_encroacher(const PointGrid& grid, const Samples& samples, uint32_t i,
+                                  double diagonal) {
   const uint32_t p = samples.at[i], q = samples.at[i + 1];
   const Vec3 &a = samples.position[p], &b = samples.position[q];
-  return grid.any_near(0.5 * (a + b), 0.5 * length(b - a), [&](uint32_t r) {
+  const double square = dot(b - a, b - a);
+  const double same = k_coincidence * k_coincidence * diagonal * diagonal;
+  Encroacher best;
+  double best_off = DBL_MAX;
+  grid.any_near(0.5 * (a + b), 0.5 * length(b - a), [&](uint32_t r) {
     if (r == p || r == q) return false;
     const Vec3& c = samples.position[r];
-    return dot(a - c, b - c) < 0.0;
+    if (!(dot(a - c, b - c) < 0.0)) return false;
+    if (dot(a - c, a - c) < same || dot(b - c, b - c) < same) return false;
+    const double share = dot(c - a, b - a) / square, off = std::fabs(share - 0.5);
+    if (off > best_off || (off == best_off && r > best.sample)) return false;
+    best_off = off;
+    best = {r, share, length(c - a - share * (b - a))};
+    return false;
   });
+  return best;
 }
 
 static double power_of_two_near(double x) {
@@ -326,19 +347,33 @@ static double power_of_two_near(double x) {
   return x - power > 2.0 * power - x ? 2.0 * power : power;
 }
 
-// Halfway; beside a node at a power of two from it, so that splits of all its arcs agree.
-static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i) {
+// Beside a node at a power of two from it, so that splits of all its arcs agree. Elsewhere at the
+// foot of the sample in the ball, whose ball is then clear of it however near it is: curves that
+// run side by side get samples side by side, not as many as their gap goes into their length.
+// Halfway if the foot is near an end.
+static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i, double foot) {
+  constexpr double k_near_end = 0.2;
   const double from = samples.along[i], to = samples.along[i + 1], half = 0.5 * (to - from);
   const uint32_t p = samples.vertex[samples.at[i]], q = samples.vertex[samples.at[i + 1]];
   const bool at_p = p != k_none && arcs.is_node[p] != 0;
   const bool at_q = q != k_none && arcs.is_node[q] != 0;
-  if (at_p == at_q) return from + half;
-  return at_p ? from + power_of_two_near(half) : to - power_of_two_near(half);
+  if (at_p != at_q) return at_p ? from + power_of_two_near(half) : to - power_of_two_near(half);
+  if (foot < k_near_end || foot > 1.0 - k_near_end) return from + half;
+  return from + foot * (to - from);
+}
+
+// Where splitting stops: what is nearer to a short segment than a small part of its length would
+// have it divided many times over, finer than any surface between the two could show.
+static bool is_crowded(const Encroacher& near, double length, double greatest_step,
+                       double diagonal) {
+  constexpr double k_coinciding = 0.05;  // of the length
+  if (length < 2.0 * k_least_segment * diagonal) return true;
+  return length < 2.0 * k_least_step * greatest_step && near.gap < k_coinciding * length;
 }
 
 // One pass over all segments; true in *any if one was split.
-static Status split_encroached(Context& context, const Arcs& arcs, Samples* samples,
-                               Stations* stations, bool* any) {
+static Status split_encroached(Context& context, const Arcs& arcs, double greatest_step,
+                               Samples* samples, Stations* stations, bool* any) {
   PointGrid grid(context);
   TRY(grid.build(samples->position.span()));
   stations->start.clear();
@@ -353,12 +388,15 @@ static Status split_encroached(Context& context, const Arcs& arcs, Samples* samp
     for (uint32_t i = samples->start[a]; i <= last; ++i) {
       TRY(stations->along.push(samples->along[i]));
       if (++looked_at % k_segments_per_checkpoint == 0) TRY(context.checkpoint());
-      if (i == last || !encroached(grid, *samples, i)) continue;
-      if (samples->along[i + 1] - samples->along[i] < 2.0 * k_least_segment * arcs.diagonal) {
+      if (i == last) continue;
+      const Encroacher near = find_encroacher(grid, *samples, i, arcs.diagonal);
+      if (near.sample == k_none) continue;
+      const double length = samples->along[i + 1] - samples->along[i];
+      if (is_crowded(near, length, greatest_step, arcs.diagonal)) {
         ++samples->too_short;
         continue;
       }
-      TRY(stations->along.push(split_at(arcs, *samples, i)));
+      TRY(stations->along.push(split_at(arcs, *samples, i, near.share)));
       ++samples->splits;
       *any = true;
       if (stations->along.size() > k_most_samples) {
@@ -377,7 +415,7 @@ Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Sam
   TRY(divide_arcs(context, arcs, steps.span(), &stations));
   TRY(place_samples(context, arcs, stations, samples));
   for (bool any = true; any;) {
-    TRY(split_encroached(context, arcs, samples, &stations, &any));
+    TRY(split_encroached(context, arcs, greatest_step, samples, &stations, &any));
     if (any) TRY(place_samples(context, arcs, stations, samples));
   }
   return {};

@@ -7,10 +7,11 @@
 // at a node all arcs begin with steps of the same length; steps are at most half the distance to
 // the nearest other arc (its directed Hausdorff distance) down to a floor, but for those beside a
 // sample that moved to a given point; every segment is Gabriel, that is, no sample lies in the ball
-// of which it is the diameter, unless it is shorter than k_least_segment, which is
-// counted. Near-linear where arcs are not all near each other. Sources: B. Sadri, K. Singh,
-// "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.1; J. Ruppert, "A
-// Delaunay Refinement Algorithm", 1995 (shells round nodes).
+// of which it is the diameter, but for those counted as too short: below k_least_segment, or below
+// the floor where another curve all but coincides with it. Curves side by side get samples side by
+// side, so their number does not grow with the narrowness of the gap. Near-linear where arcs are
+// not all near each other. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction
+// from 3D Curves", 2014, section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells).
 #pragma once
 
 #include "flow/arcs.h"

@@ -85,7 +85,6 @@ Call run(const Case& hostile_case, wsk_method method, int scale, Way way = Way::
     if (way == Way::flow) curve.normals.clear();
   }
   scene.spacing = coarse_spacing(scene.curves) * (way == Way::flow ? 4 : 1);
-  scene.most_tetrahedra = 50000;  // curves that run into each other ask for millions
   wsk_options options = scenes::options_of(scene);
   options.method = method;
   Watch watch;

@@ -135,3 +135,45 @@ TEST_CASE("Given points lie near the segments, however the curve turns") {
     }
   }
 }
+
+TEST_CASE("Curves side by side get samples side by side, however near they are") {
+  for (const double slant : {0.0, 0.3}) {
+    for (const double gap : {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12}) {
+      CAPTURE(gap);
+      CAPTURE(slant);
+      // Two lines, shifted along each other, the second turned a little.
+      Net net;
+      for (int i = 0; i < 2; ++i) {
+        const uint32_t a = net.add({0.0137 * i, gap * i, 0});
+        net.edge(a, net.add({1 + 0.0071 * i, gap * i, slant * gap * i}));
+      }
+      Sampled s(net, 0.02);
+      // Not one for each time the gap goes into the length.
+      CHECK(s.samples.position.size() < 1500);
+      if (gap < 1e-4) continue;
+      check_gabriel(s);
+      CHECK(s.samples.too_short == 0);
+    }
+  }
+}
+
+TEST_CASE("Curves that all but coincide are split down to the least step and no further") {
+  for (const double gap : {1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-12, 0.0}) {
+    CAPTURE(gap);
+    // Two circles, their corners turned against each other, the lesser bent to and fro.
+    Net net;
+    add_circle(net, {}, {1, 0, 0}, {0, 1, 0}, 500, {});
+    std::vector<uint32_t> curve;
+    for (int i = 0; i < 333; ++i) {
+      const double a = 2 * k_pi * i / 333.0, r = 1.0 - gap * (2.0 + std::sin(7.0 * a));
+      curve.push_back(net.add({r * std::cos(a), r * std::sin(a), gap * std::cos(5.0 * a)}));
+    }
+    curve.push_back(curve.front());
+    net.curve.push_back(curve);
+    constexpr double k_step = 0.06;
+    Sampled s(net, k_step);
+    const double at_least_step = 2.0 * 2.0 * k_pi / (0.02 * k_step);
+    CHECK(s.samples.position.size() < 2.5 * at_least_step);
+    CHECK((s.samples.too_short == 0) == (gap >= 1e-4));
+  }
+}
