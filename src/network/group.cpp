@@ -19,6 +19,9 @@ static constexpr double k_unclear_side = 0.02;
 static constexpr double k_hardly_more = 1.1;
 // Pieces that face their plane less clearly are asked where they lie in space.
 static constexpr double k_clearly_facing = 0.5;
+// A loop whose normals agree with its axis less than this is the outside of what it encloses, and
+// belongs to the patch round it.
+static constexpr double k_inside_out = -0.2;
 // Rule 2 looks at this many vertices of a loop at most.
 static constexpr uint32_t k_most_probes = 64;
 
@@ -38,6 +41,7 @@ struct Grouping {
   Array<uint32_t> holder;      // of each component that bounds nothing: its patch
   Array<uint32_t> doubtful;    // the same where another patch may be the right one
   Array<uint8_t> ambiguous;    // of each patch
+  Array<uint8_t> passed;       // of each vertex, zero between questions
 
   Grouping(Context& context, const CurveVertices& of, Network* net)
       : vertices(of),
@@ -50,7 +54,8 @@ struct Grouping {
         told(context),
         holder(context),
         doubtful(context),
-        ambiguous(context) {}
+        ambiguous(context),
+        passed(context) {}
   uint32_t root(uint32_t p) {
     while (parent[p] != p) p = parent[p] = parent[parent[p]];
     return p;
@@ -94,6 +99,7 @@ static Status take_components(Grouping* g) {
   TRY(g->reversed.assign(patches, 0));
   TRY(g->told.assign(patches, 0));
   TRY(g->ambiguous.assign(patches, 0));
+  TRY(g->passed.assign(g->vertices.position.size(), 0));
   TRY(g->holder.assign(g->components.members.count(), k_none));
   TRY(g->doubtful.assign(g->components.members.count(), k_none));
   for (uint32_t p = 0; p < patches; ++p) {
@@ -173,9 +179,10 @@ static double closing_cosine(const Border& border, double* area) {
   return dot(mean_normal(border), unit(axis));
 }
 
-static Status add_facing(const Border& border, uint32_t patch, bool reversed, double cosine,
-                         double area, Array<Facing>* facing, Array<Probe>* probes) {
-  const uint32_t n = border.size();
+static Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reversed,
+                         double cosine, double area, Array<Facing>* facing,
+                         Array<Probe>* probes) {
+  const uint32_t start = border.start[loop], n = border.start[loop + 1] - start;
   const uint32_t count = n < k_most_probes ? n : k_most_probes;
   const double least = larger(1.0 + cosine, 1e-3);
   Facing f = {patch,
@@ -189,10 +196,10 @@ static Status add_facing(const Border& border, uint32_t patch, bool reversed, do
   const double total = border_length(border);
   for (uint32_t k = 0; k < count; ++k) {
     const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
-    const Vec3& p = border.position[i];
-    const Vec3& next = border.position[i + 1 < n ? i + 1 : 0];
-    const Vec3& before = border.position[i > 0 ? i - 1 : n - 1];
-    const Vec3 conormal = unit(cross(border.normal[i], next - before));
+    const Vec3& p = border.position[start + i];
+    const Vec3& next = border.position[start + (i + 1 < n ? i + 1 : 0)];
+    const Vec3& before = border.position[start + (i > 0 ? i - 1 : n - 1)];
+    const Vec3 conormal = unit(cross(border.normal[start + i], next - before));
     TRY(probes->push({p, reversed ? -conormal : conormal, total / count}));
     f.centre += (1.0 / count) * p;
   }
@@ -213,10 +220,10 @@ static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing
     TRY(border_of_patch(network, g->vertices, p, &border));
     double area = 0.0;
     const double cosine = closing_cosine(border, &area);
-    TRY(add_facing(border, p, false, cosine, area, facing, probes));
+    TRY(add_facing(border, 0, p, false, cosine, area, facing, probes));
     if (network.ring[p] && !decided[p]) {
       // A ring alone takes the cheaper side.
-      TRY(add_facing(border, p, true, -cosine, area, facing, probes));
+      TRY(add_facing(border, 0, p, true, -cosine, area, facing, probes));
       Facing *one = &(*facing)[facing->size() - 2], *other = &facing->back();
       const bool unclear = std::fabs(cosine) < k_unclear_side;
       one->alone = other->alone = smaller(one->alone, other->alone);
@@ -275,18 +282,28 @@ static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<cons
   return {};
 }
 
-// Whether two groups have loops of the same component: a patch that meets itself across a curve is
-// never what normals ask for where another loop was nearer.
-static bool share_component(Grouping* g, Span<const Facing> facing, uint32_t a, uint32_t b) {
-  for (const Facing& x : facing) {
-    if (g->root(x.patch) != g->root(a)) continue;
-    for (const Facing& y : facing) {
-      if (g->root(y.patch) == g->root(b) && g->component[x.patch] == g->component[y.patch]) {
-        return true;
+// Whether two groups are one, or have loops that pass the same vertex: a patch that meets itself
+// across a curve is never what normals ask for where another loop was nearer.
+static bool share_vertex(Grouping* g, uint32_t a, uint32_t b) {
+  const Network& network = *g->network;
+  const uint32_t roots[2] = {g->root(a), g->root(b)};
+  bool share = roots[0] == roots[1];
+  for (int side = 0; side < 2 && !share; ++side) {
+    for (uint32_t p = 0; p < network.patches(); ++p) {
+      if (g->root(p) != roots[side]) continue;
+      for (uint32_t h : network.cycle(p)) {
+        const uint32_t v = segment_vertex(network, g->vertices, h / 2, 0);
+        const uint32_t w = segment_vertex(network, g->vertices, h / 2, g->vertices.edges[h / 2]);
+        if (side == 1) share = share || g->passed[v] || g->passed[w];
+        if (side == 0) g->passed[v] = g->passed[w] = 1;
       }
     }
   }
-  return false;
+  for (uint32_t h : network.loop.item) {
+    g->passed[segment_vertex(network, g->vertices, h / 2, 0)] = 0;
+    g->passed[segment_vertex(network, g->vertices, h / 2, g->vertices.edges[h / 2])] = 0;
+  }
+  return share;
 }
 
 namespace {
@@ -315,8 +332,7 @@ static bool loops_may_join(Grouping* g, const Pairing& pairing, const Band& band
   const bool both_alone = !pairing.joined[band.a] && !pairing.joined[band.b];
   const bool no_other_way = both_alone && (a.sideless || b.sideless);
   if (!(no_other_way || band.area < cost_alone(pairing, band)) || wrong_side) return false;
-  const bool same = g->component[a.patch] == g->component[b.patch];
-  return same ? both_alone : !share_component(g, pairing.facing.span(), a.patch, b.patch);
+  return !share_vertex(g, a.patch, b.patch);
 }
 
 // Whether closing the loops alone, or one of the bands that follow, which are larger, was hardly
@@ -587,18 +603,18 @@ static Status guess_patches(const Grouping& g, Span<const uint8_t> clockwise,
   return {};
 }
 
-// The patch on which a guest lies; a ring is turned to the side found.
-static uint32_t host_of(Grouping* g, const Guest& guest, const PatchGuesses& guesses,
-                        Span<uint8_t> turned) {
+// The patch on which a guest lies; a ring is turned to the side found. `border` is that of the
+// guest's loop.
+static uint32_t host_of(Grouping* g, const Guest& guest, const Border& border,
+                        const PatchGuesses& guesses, Span<uint8_t> turned) {
   constexpr double k_farthest_piece = 0.5, k_farthest_loop = 0.25;
   const bool loop = guest.patch != k_none;
-  const Piece piece = {g->components.members[guest.component],
+  const Piece piece = {loop ? border.vertex.span() : g->components.members[guest.component],
                        loop ? k_farthest_loop : k_farthest_piece, loop ? k_clearly_facing : 0.0,
                        guest.patch};
   const uint32_t found = nearest_patch(g->vertices, piece, guesses);
   if (found == k_none) return k_none;
   const uint32_t host = guesses.patch[found].number / 2, side = guesses.patch[found].number % 2;
-  if (loop && g->component[host] == guest.component) return k_none;
   if (g->network->ring[host] && turned[host] != side + 1) {
     if (turned[host] != 0) return k_none;  // another guest has turned it the other way
     turned[host] = static_cast<uint8_t>(side + 1);
@@ -613,21 +629,116 @@ static Status join_guests(Grouping* g, Span<const uint8_t> settled) {
   Array<Guest> guests(context);
   Array<uint8_t> clockwise(context), turned(context);
   PatchGuesses guesses(context);
-  if (g->components.members.count() < 2) return {};
+  Border border(context);
   TRY(list_guests(*g, settled, &clockwise, &guests));
   if (guests.empty()) return {};
   TRY(guess_patches(*g, clockwise.span(), guests.span(), &guesses));
   TRY(turned.assign(g->network->patches(), 0));
   for (const Guest& guest : guests) {
-    const uint32_t host = host_of(g, guest, guesses, turned.span());
+    if (guest.patch != k_none) {
+      TRY(border_of_patch(*g->network, g->vertices, guest.patch, &border));
+    }
+    const uint32_t host = host_of(g, guest, border, guesses, turned.span());
     TRY(context.checkpoint());
     if (guest.patch == k_none) {
       g->holder[guest.component] = host != k_none ? host : g->doubtful[guest.component];
       continue;
     }
-    if (host == k_none || g->root(host) == g->root(guest.patch)) continue;
+    if (host == k_none || share_vertex(g, host, guest.patch)) continue;
     g->reversed[guest.patch] = g->network->ring[guest.patch];
     g->join(host, guest.patch);
+  }
+  return {};
+}
+
+// ---- Rule 4 -------------------------------------------------------------------------------------
+
+namespace {
+
+// The patch that a place of a loop looks at, and how far along the surface that is.
+struct Sight {
+  uint32_t loop = k_none;
+  double distance = DBL_MAX;
+};
+
+}  // namespace
+
+// The nearest place whose conormal looks back: the way between two conormals that turn by a and b
+// from the chord is longer than it by about 2 / (1 + cosine) of either.
+static Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
+                  Span<const uint8_t> hidden) {
+  Sight sight;
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    const Facing& f = facing[i];
+    if (hidden[i] || length(f.centre - p.position) - f.radius > sight.distance) continue;
+    for (const Probe& q : probes.part(f.first, f.count)) {
+      const Vec3 way = q.position - p.position;
+      const double chord = length(way);
+      if (!(chord < sight.distance) || chord == 0.0) continue;
+      const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
+      const double distance = chord * 4.0 / ((1.0 + out) * (1.0 + back));
+      if (!(out > 0.0 && back > 0.0 && distance < sight.distance)) continue;
+      sight = {i, distance};
+    }
+  }
+  return sight;
+}
+
+// The loop of the group that most places of loop `own` look at, k_none where no group has most of
+// them; `area`: about what the surface between has.
+static uint32_t loop_in_sight(Grouping* g, uint32_t own, Span<const Facing> facing,
+                              Span<const Probe> probes, Span<const uint8_t> hidden,
+                              Span<double> votes, double* area) {
+  constexpr double k_most = 0.6;
+  double total = 0.0;
+  *area = 0.0;
+  for (double& v : votes) v = 0.0;
+  for (const Probe& p : probes.part(facing[own].first, facing[own].count)) {
+    const Sight sight = look(p, facing, probes, hidden);
+    total += p.share;
+    if (sight.loop == k_none) continue;
+    votes[g->root(facing[sight.loop].patch)] += p.share;
+    *area += p.share * sight.distance;
+  }
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    if (votes[g->root(facing[i].patch)] > k_most * total) return i;
+  }
+  return k_none;
+}
+
+static Status join_in_sight(Grouping* g) {
+  const Network& network = *g->network;
+  Context& context = g->parent.context();
+  Array<Facing> facing(context);
+  Array<Probe> probes(context);
+  Array<double> cosine(context), votes(context);
+  Array<uint8_t> hidden(context);
+  Border border(context);
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    if (network.ring[p]) continue;
+    TRY(border_of_patch(network, g->vertices, p, &border));
+    double area = 0.0;
+    const double closing = closing_cosine(border, &area);
+    for (uint32_t l = 0; l < border.loops(); ++l) {
+      TRY(add_facing(border, l, p, false, closing, area, &facing, &probes));
+      // Loops that are together already look for nothing more.
+      TRY(cosine.push(border.loops() == 1 ? closing : 1.0));
+    }
+    TRY(context.checkpoint());
+  }
+  TRY(hidden.resize(facing.size()));
+  TRY(votes.assign(network.patches(), 0.0));
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    if (!(cosine[i] < k_inside_out)) continue;
+    for (uint32_t j = 0; j < facing.size(); ++j) {
+      hidden[j] = share_vertex(g, facing[i].patch, facing[j].patch);
+    }
+    double area = 0.0;
+    const uint32_t j = loop_in_sight(g, i, facing.span(), probes.span(), hidden.span(),
+                                     votes.span(), &area);
+    TRY(context.checkpoint());
+    if (j == k_none || !(area < facing[i].alone)) continue;
+    g->join(facing[i].patch, facing[j].patch);
   }
   return {};
 }
@@ -658,6 +769,7 @@ Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity*
   }
   for (size_t p = 0; p < ambiguous.size(); ++p) spaces.ambiguous[p] = ambiguous[p];
   TRY(join_guests(&spaces, settled.span()));
+  TRY(join_in_sight(&spaces));
   TRY(check_rings(&spaces));
   TRY(check_holders(spaces, settled.span()));
   TRY(rebuild(&spaces, &number, &ambiguous));

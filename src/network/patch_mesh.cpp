@@ -242,12 +242,33 @@ static bool on_the_left(const PatchScratch& scratch, Array<Chord>* directed) {
   return true;
 }
 
+// Loops that all are outer ones, beside each other, bound several discs in the plane and not the
+// patch.
+static uint32_t outer_loops(const PatchScratch& scratch) {
+  const Border& border = scratch.border;
+  uint32_t count = 0;
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    const Vec2 base = scratch.flat[scratch.loop[border.start[l]]];
+    double area = 0.0;
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const Vec2 a = scratch.flat[scratch.loop[i]] - base;
+      const Vec2 b = scratch.flat[scratch.loop[next_on_border(border, l, i)]] - base;
+      area += a.x * b.y - a.y * b.x;
+    }
+    count += area > 0.0;
+  }
+  return count;
+}
+
 static Status mesh_flat(double spacing, PatchScratch* scratch) {
   Context& context = scratch->vertex.context();
   const Border& border = scratch->border;
   round_to_grid(scratch->flat.span(), &spacing);
   if (border.loops() == 1 && border.size() == scratch->vertex.size()) {
     return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
+  }
+  if (outer_loops(*scratch) > 1) {
+    return fail(Code::patch_without_plane, "the plane shows the loops beside each other");
   }
   Array<uint32_t> edges(context);
   Array<Chord> directed(context);
