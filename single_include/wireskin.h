@@ -8,12 +8,19 @@
  * wireskin - smooth surfaces through networks of space curves.
  *
  * You give curves in space with surface normals and say where the curves meet; you get one smooth
- * triangle mesh that passes through them. The method is that of T. Stanko, S. Hahmann,
+ * triangle mesh that passes through them (wsk_build). The method is that of T. Stanko, S. Hahmann,
  * G.-P. Bonneau, N. Saguin-Sprynski, "Surfacing Curve Networks with Normal Control", Computers and
  * Graphics 60, 2016: cycles from oriented normals, a constrained Delaunay triangulation of every
  * cycle in its plane, normals propagated from the curves, and a surface whose mean curvature
- * follows them. Everything it needs is inside; it calls nothing but memcpy, memmove, memset, sqrt
- * and, where you give no allocator, malloc and free.
+ * follows them.
+ *
+ * Curves may come raw: fragments that miss each other, normals known here and there. wsk_connect
+ * makes a network of them for wsk_build. And they may come without any normals: wsk_flow_build
+ * finds the voids that they cage, wsk_flow_surface the surface round these (B. Sadri, K. Singh,
+ * "Flow-Complex-Based Shape Reconstruction from 3D Curves", ACM Transactions on Graphics 33, 2014).
+ *
+ * Everything the library needs is inside; it calls nothing but memcpy, memmove, memset, sqrt and,
+ * where you give no allocator, malloc and free.
  *
  * In one paragraph:
  *
@@ -232,8 +239,7 @@ typedef struct wsk_options {
      two nodes is divided evenly, so distances differ a little from it. Ignored by
      wsk_smooth_mesh. */
   double spacing;
-  /* What is done about noise in the samples of wsk_build and wsk_flow_build, before anything else.
-   */
+  /* What wsk_build and wsk_flow_build do about noise in the samples, before anything else. */
   wsk_smoothing smoothing;
   /* For WSK_SMOOTHING_GIVEN: the standard deviation of each coordinate, in your units; 0 is none.
    */
@@ -326,7 +332,8 @@ typedef struct wsk_report {
   double spacing;       /* the spacing used, in your units; mean edge length for wsk_smooth_mesh */
   double min_angle_deg; /* the least angle of all triangles of the result */
   /* Of the last linear system A x = b: |b - A x| / |b| in the Euclidean norm, the greatest of its
-     columns. Systems are solved to 1e-12, those of more vertices to 1e-11 or 1e-10. */
+     columns. What is aimed at is 1e-12; beyond some 30,000 vertices, or where memory_cap leaves no
+     room for a factor, 1e-11; beyond 300,000 1e-10. */
   double residual;
   uint32_t factorisations;       /* Cholesky factorisations, of whatever size */
   uint32_t cg_iterations;        /* iterations of conjugate gradients with an earlier factor */
@@ -614,9 +621,12 @@ typedef struct wsk_network_view {
  * insides of curves of different components. Insides of one component are joined only where they
  * cross: at a quarter of the tolerance, or at a hundredth where the network is one component
  * without dangling ends already. Places that the network connects within four tolerances are left
- * alone (loose ends: within four times their distance). Existing nodes stay where they are and the
- * curves that come to them bend smoothly; an end comes to the inside of a curve; ends meet in the
- * middle, and so do insides. A joint between samples becomes a sample.
+ * alone (loose ends: within four times their distance). Where most gaps are next to nothing, as
+ * between curves drawn on a surface, ends that meet a curve come first, every crossing becomes a
+ * joint, and curves side by side are joined last, where nothing else joins their components.
+ * Existing nodes stay where they are and the curves that come to them bend smoothly; an end comes
+ * to the inside of a curve; ends meet in the middle, and so do insides. A joint between samples
+ * becomes a sample.
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other
@@ -790,7 +800,7 @@ typedef struct wsk_flow_view {
   uint32_t tetrahedron_count;
   uint32_t
       critical_count[4];  /* points, saddles of index 1 and 2, maxima: their alternating sum is 1 */
-  uint32_t split_count;   /* segments halved because a sample came too near */
+  uint32_t split_count;   /* segments divided because a sample came too near */
   uint32_t crowded_count; /* segments that should have been, but were too short already */
   uint32_t missing_count; /* segments without an edge in the complex: none in sound input */
   uint32_t void_count;
@@ -842,7 +852,7 @@ typedef struct wsk_flow_view {
  *
  * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
  * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial changes
- * nothing, since no patch is left out ever. `options` and `flow_options` may be null (defaults). On
+ * nothing, since no patch is ever left out. `options` and `flow_options` may be null (defaults). On
  * success *flow is to be given to wsk_flow_free; it keeps the allocator of the options, not the
  * callbacks. */
 WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
@@ -1786,14 +1796,12 @@ class Roughness {
 /* positions and normals; or one over the whole network where the noise is stated. */
 /* */
 /* In: thinned samples; those of a node agree and stay one. Out, in place: smoothed positions and */
-/* unit normals, all copies of a node the same bit for bit, and how much noise was found. Components */
-/* stay as they are where not even the least weight pays, where there are too few samples to tell */
-/* noise from shape, and where a curve would change its size. Closed curves are smoothed across */
-/* their ends; sharp turns survive at ends and corners only. Scaling the positions by a power of two */
-/* scales the result exactly. Cost: an analysis and some twenty factorisations where there are many */
-/* samples, a hundred at most. */
-/* Sources: P. Craven, G. Wahba, "Smoothing Noisy Data with Spline Functions", 1979; V. Morozov, "On */
-/* the Solution of Functional Equations by the Method of Regularization", 1966, for given noise. */
+/* unit normals, and how much noise was found. Components stay as they are where not even the least */
+/* weight pays, where samples are too few to tell noise from shape, and where a curve would change */
+/* its size. Closed curves are smoothed across their ends; sharp turns survive at ends and corners */
+/* only. Cost: an analysis and some twenty factorisations, a hundred at most. Sources: P. Craven, G. */
+/* Wahba, "Smoothing Noisy Data with Spline Functions", 1979; V. Morozov, "On the Solution of */
+/* Functional Equations by the Method of Regularization", 1966, for given noise. */
 
 namespace wireskin::network {
 
@@ -2293,15 +2301,12 @@ Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Pa
 /* ======== begin src/sparse/cholesky.h ======== */
 /* Cholesky factorisation of a sparse symmetric positive definite matrix, P A P^T = L L^T, in three */
 /* steps: analyse the pattern once, factor as often as the values change, solve as often as there */
-/* are right-hand sides. Multifrontal: each supernode is assembled from the matrix and from the */
-/* update matrices of its children, and factored as a dense panel. */
-/* */
-/* Invariants: a failed analyse() or factor() leaves no factor behind, and solve() then says so. The */
-/* same input gives the same bits, for a first factor() and a repeated one, for one right-hand side */
-/* and for many, for every instruction set and any number of threads. Memory: factor_bytes(), which */
-/* the first factor() allocates and later ones use again, 2 words per entry of the matrix, about 8 */
-/* per column. */
-/* */
+/* are right-hand sides. Multifrontal: each supernode is assembled from the matrix and the update */
+/* matrices of its children, and factored as a dense panel. Invariants: a failed analyse() or */
+/* factor() leaves no factor behind, and solve() then says so; the same bits for a first factor() */
+/* and a repeated one, for one right-hand side and for many, for every instruction set and any */
+/* number of threads. Memory: factor_bytes(), used again by later factors, 2 words per entry of the */
+/* matrix, about 8 per column. */
 /* Sources: Iain Duff, John Reid, "The Multifrontal Solution of Indefinite Sparse Symmetric Linear */
 /* Equations", 1983; Esmond Ng, Barry Peyton, "Block Sparse Cholesky Algorithms on Advanced */
 /* Uniprocessor Computers", 1993. */
@@ -2429,17 +2434,15 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
 /* The linear systems of variational smoothing: vertex values that minimise the weighted square of */
 /* their Laplacian, with some vertices held. */
 /* */
-/* Order 1 minimises the Dirichlet energy, with the matrix -L (no weights, no targets); order 2 */
-/* minimises sum_r w_r |(L v)_r - T_r|^2 over the free values, with the matrix K = L W L; order 3 */
-/* minimises the Dirichlet energy of W L v, with L W (-L) W L (targets zero). L is the integrated */
-/* cotangent Laplacian, w the inverse vertex areas; a weight of zero leaves a row out. K is positive */
-/* definite when every component holds a vertex and the free rows stay in. One factor serves any */
-/* number of fields, several in one sweep; new weights keep the ordering and the symbolic analysis. */
-/* Where the factor of K would not fit under the memory cap, conjugate gradients take its place, */
-/* with the inverse of L_ff W^-1 L_ff as preconditioner (laplacian_pairs.h; order 3: one factor */
-/* more): the factor of L_ff is a quarter of K's. Order 1 has no way out but the status. Cost: see */
-/* sparse/cholesky.h. */
-/* Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform Modeling", 2004. */
+/* L is the integrated cotangent Laplacian, w the inverse vertex areas, or 0 to leave a row out. */
+/* Order 1 minimises the Dirichlet energy, with the matrix -L; order 2 sum_r w_r |(L v)_r - T_r|^2 */
+/* over the free values, with K = L W L; order 3 the Dirichlet energy of W L v, with L W (-L) W L. K */
+/* is positive definite when every component holds a vertex and the free rows stay in. One factor */
+/* serves any number of fields; new weights keep the symbolic analysis. Where the factor of K would */
+/* not fit under the memory cap, conjugate gradients take its place, preconditioned by the inverse */
+/* of L_ff W^-1 L_ff (laplacian_pairs.h, a quarter of K's factor; order 1 has no way out). Cost: see */
+/* sparse/cholesky.h. Source: M. Botsch, L. Kobbelt, "An Intuitive Framework for Real-Time Freeform */
+/* Modeling", 2004. */
 
 namespace wireskin::smooth {
 
@@ -2521,17 +2524,11 @@ class System {
 /* */
 /* In: a mesh with the shape of each triangle in the metric to smooth in (each patch's plane, or */
 /* space), held vertices with positions and unit normals. Out: all positions, the propagated normals */
-/* (unit, for the methods that use them) and the residual of the last solve. */
-/* */
-/* The paper's method propagates normals N and positions V biharmonically, takes from them the mean */
-/* curvature h of formula (1), and finds the positions whose Laplacian fits -2 h N best: one matrix */
-/* K = L M^-1 L, factored once, for all three. */
-/* */
-/* Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its */
-/* row is left out. In space it is known up to the outer conormal c of the border (L v + c = -2 h m */
-/* n), so the row stays, with c taken from the positions and normals given on the border; where none */
-/* is given there is no c, and the row is left out. Source: T. */
-/* Stanko et al., "Surfacing Curve Networks with Normal Control", 2016, sections 3.4 and 4.2. */
+/* (unit, for the methods that use them) and the residual of the last solve. The paper's method */
+/* propagates normals N and positions V biharmonically, takes from them the mean curvature h of */
+/* formula (1), and finds the positions whose Laplacian fits -2 h N best: one matrix K = L M^-1 L, */
+/* factored once, for all three. Source: T. Stanko et al., "Surfacing Curve Networks with Normal */
+/* Control", 2016, sections 3.4 and 4.2. */
 
 namespace wireskin::smooth {
 
@@ -2973,6 +2970,8 @@ Status find_critical_points(const Complex& complex, CriticalPoints* critical);
 namespace wireskin::flow {
 
 inline constexpr double k_coincidence = 1e-9;
+/* Polylines have a corner where they turn by more than this: 35 degrees. */
+inline constexpr double k_cos_corner = 0.8191520442889918;
 
 /* All curves one after the other; curve c has the samples start[c] .. start[c + 1). */
 struct Polylines {
@@ -3051,10 +3050,11 @@ Status smooth_polylines(Context& context, const flow::Polylines& polylines,
 /* at a node all arcs begin with steps of the same length; steps are at most half the distance to */
 /* the nearest other arc (its directed Hausdorff distance) down to a floor, but for those beside a */
 /* sample that moved to a given point; every segment is Gabriel, that is, no sample lies in the ball */
-/* of which it is the diameter, unless it is shorter than k_least_segment, which is */
-/* counted. Near-linear where arcs are not all near each other. Sources: B. Sadri, K. Singh, */
-/* "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.1; J. Ruppert, "A */
-/* Delaunay Refinement Algorithm", 1995 (shells round nodes). */
+/* of which it is the diameter, but for those counted as too short: below k_least_segment, or below */
+/* the floor where another curve all but coincides with it. Curves side by side get samples side by */
+/* side, so their number does not grow with the narrowness of the gap. Near-linear where arcs are */
+/* not all near each other. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction */
+/* from 3D Curves", 2014, section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells). */
 
 namespace wireskin::flow {
 
@@ -3174,7 +3174,7 @@ Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet
 /* whether it lies in such a face, and whether the face is a polygon: at least half of its border is */
 /* straight, and has corners rather than bends. Found by flooding coplanar triangles of the walls */
 /* from the largest one on; a set counts if at each of its edges off the curves it lies on both */
-/* sides. O(triangles log triangles). */
+/* sides. O(triangles log triangles). Source: the rule is our own. */
 
 namespace wireskin::flow {
 
@@ -3447,9 +3447,10 @@ Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptio
 /* each other take a smaller effort next time: no relaxation, at last no refinement, which is the */
 /* embedded complex itself; triangles of it that cross all the same, because curves all but touch, */
 /* get the complex's own, jittered points. Without spacing all patches are left as they are. Every */
-/* triangle of the walls occurs once, ears and tails in their first patch. Near-linear in the */
-/* result. Source of the remeshing to fair patches: B. Sadri, K. Singh, "Flow-Complex-Based Shape */
-/* Reconstruction from 3D Curves", 2014, section 5. */
+/* triangle of the walls occurs once, ears and tails in their first patch; but flat ones that */
+/* several sheets end at are left out, and each sheet goes on to the curve, unless that makes */
+/* triangles cross. Near-linear in the result. Source of the remeshing to fair patches: B. Sadri, K. */
+/* Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 5. */
 
 namespace wireskin::flow {
 
@@ -3477,12 +3478,13 @@ Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& re
 /* */
 /* In: a flow and a reconstruction of it, the caller's normals or none. Out: the surface with */
 /* patches, curve edges and the counts of the report. Curves that bound no patch stay in it as curve */
-/* edges. Without normals, where more than two patches meet at a curve, where a border is no curve */
-/* and where smoothing would make triangles cross, the remeshed patches are the result; curvatures */
-/* are zero then where the mesh is no manifold. For smoothing, vertices between two samples of a */
-/* curve move off the segment to where the normals at its ends bend it. Cost: that of remeshing */
-/* (flow/remesh.h) and of one smoothing. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape */
-/* Reconstruction from 3D Curves", 2014; A. Vlachos et al., "Curved PN Triangles", 2001. */
+/* edges. Without normals, where more than two patches meet at a curve, where a border is no curve, */
+/* where normals contradict the surface, and where smoothing fails or makes triangles cross, the */
+/* remeshed patches are the result; curvatures are zero then where the mesh is no manifold. For */
+/* smoothing, vertices between two samples of a curve move off the segment to where the normals at */
+/* its ends bend it. Cost: that of remeshing (flow/remesh.h) and of one smoothing. Sources: B. Sadri, */
+/* K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014; A. Vlachos et al., */
+/* "Curved PN Triangles", 2001. */
 
 namespace wireskin {
 
@@ -3782,15 +3784,13 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
 /* other. */
 /* */
 /* In: welded, chained curves and a tolerance. Local minima of the distance between curves are taken */
-/* nearest first and left alone where the network connects their places already within four */
-/* tolerances (a loose end: four times the distance, two: twice); an end or a node no farther than */
-/* the tolerance takes part instead of a place near it. Insides are joined only where the curves */
-/* were in different components, or cross: at a quarter of the tolerance, or at a hundredth in a */
-/* network that is complete. Where three quarters of the gaps are next to nothing (curves drawn on a */
-/* surface), every crossing gets its point, ends are settled first, and curves side by side are */
-/* joined only where nothing else joins their components. Out: the curves, bent (network/bend.h), */
-/* points that were joined staying and ends coming to insides; the list of joints. Cost: that of the */
-/* approaches and of a search over the samples within four tolerances for each. */
+/* in the order of network/snap_order.h and left alone where the network connects their places */
+/* already within four tolerances (a loose end: four times the distance, two: twice); an end or a */
+/* node no farther than the tolerance takes part instead of a place near it. Insides are joined only */
+/* where the curves were in different components, or cross: at a quarter of the tolerance, or at a */
+/* hundredth in a network that is complete; of exact curves every crossing gets its point, and those */
+/* side by side are joined only where nothing else joins their components. Out: the curves, bent */
+/* (network/write_beads.h); the joints. Cost: the approaches', and a search within four tolerances. */
 
 namespace wireskin::network {
 
@@ -3821,7 +3821,9 @@ Status snap_wires(double tolerance, Wires* wires, SnapResult* result);
 /* */
 /* In: curves as given, scaled so that their extent is about one. Out: the same struct as a network */
 /* whose joints are points, and what was done. A network that needs nothing comes out unchanged: the */
-/* same curves, samples and normals, bit for bit, in the same order. */
+/* same curves, samples and normals, bit for bit, in the same order. Cost: sorting the samples, and */
+/* that of snapping; the rest is linear. Sources: the steps are our own; those of what they use */
+/* stand in network/approach.h, bend.h and orient.h. */
 
 namespace wireskin::network {
 
@@ -4770,7 +4772,7 @@ Status radix_sort(Context& context, Array<BitsKey>* keys);
 /* ends in the middle of flat faces along a quarter of its border, or, with rooms on both sides or */
 /* none, on walls of any shape along nearly all of it; where three or more meet off the curves, the */
 /* two that continue each other most evenly do not end. What is passed first changes what closes the */
-/* other rooms, so this repeats, as long as it finds any. Near-linear a round. */
+/* other rooms, so this repeats, eight rounds at most. Near-linear a round. The rule is our own. */
 
 namespace wireskin::flow {
 
@@ -5413,8 +5415,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
 /* refined, and shifted by the least bending field that carries the curves from the mesh to their */
 /* own place and holds the loops. Invariants: every edge given is an edge of the mesh, which stays a */
 /* manifold of the same kind. Cost: two factorisations of the size of the mesh, and the points and */
-/* edges given times the vertices. Source: P. Schneider, D. Eberly, "Geometric Tools for Computer */
-/* Graphics", 2003 (nearest point of a triangle). */
+/* edges given times the vertices. Sources: those of mesh/chart.h, planar/region.h and mesh/dome.h. */
 
 namespace wireskin::mesh {
 
@@ -5429,11 +5430,27 @@ struct Inlay {
 Status inlay_curves(Context& context, Span<const uint32_t> start, const Inlay& inlay,
                     double spacing, Array<Vec3>* position, Array<uint32_t>* triangle);
 
-/* The point of the triangle a b c nearest to p, by its weights at the corners. */
-Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/inlay.h ======== */
+
+/* ======== begin src/mesh/nearest.h ======== */
+/* The nearest points of segments and triangles in space. */
+/* */
+/* In: a point and corners. Out: weights at the corners, not negative, with the sum one; a weight of */
+/* a corner that the nearest point does not touch is exactly zero. Corners may coincide. O(1). */
+/* Source: P. Schneider, D. Eberly, "Geometric Tools for Computer Graphics", 2003. */
+
+namespace wireskin::mesh {
+
+Vec2 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b);
+Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+/* Whether a place of a triangle, given by its weights, lies on the border of a mesh whose first */
+/* `rim` vertices are those of its border: what is beside the mesh projects to there. */
+bool is_on_border(const Vec3& weights, const uint32_t* triangle, uint32_t rim);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/nearest.h ======== */
 
 /* ======== begin src/planar/insertion_order.h ======== */
 /* The order in which points are best added to a triangulation: in rounds of growing size, each */
@@ -5627,6 +5644,87 @@ Status triangulate_region(const Region& region, Triangulation* t, Array<uint32_t
 
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/region.h ======== */
+
+/* ======== begin src/network/beads.h ======== */
+/* Curves as strings of beads, on which places of theirs can be made one point. */
+/* */
+/* A bead is a sample, or a place between samples that became one; beads of samples have the */
+/* sample's index. The beads of a curve are a list, those of a point a ring, and the set of a bead */
+/* names its point. In: wires, and how many joints there will be at most: each has room for two new */
+/* beads. No operation on them allocates; each costs the beads that it passes. Curves are made of */
+/* them again by network/write_beads.h. */
+
+namespace wireskin::network {
+
+struct Bead {
+  Vec3 position;
+  double to_next = 0.0;  /* along the chords */
+  double part = 0.0;     /* of the edge after sample `edge`; zero for samples */
+  uint32_t edge = k_none;
+  uint32_t previous = k_none, next = k_none;
+  uint32_t ring = k_none;
+  uint32_t given = k_none;  /* the point before any joint */
+  bool joined = false;      /* that had more than one sample */
+};
+
+/* A place in the list: a bead, or that far behind it. */
+struct BeadPlace {
+  uint32_t bead = k_none;
+  double behind = 0.0;
+};
+
+struct Beads {
+  const Wires& wires;
+  Array<Bead> bead;
+  Array<uint32_t> curve;   /* of each sample */
+  Array<uint8_t> touched;  /* of each bead that names a point: something came to it */
+  DisjointSets sets;
+
+  explicit Beads(const Wires& given)
+      : wires(given),
+        bead(given.position.context()),
+        curve(given.position.context()),
+        touched(given.position.context()),
+        sets(given.position.context()) {}
+
+  /* Strings the samples; `curve` is filled before. */
+  Status string_samples(size_t joints);
+
+  Context& context() const { return wires.position.context(); }
+  size_t room() const { return touched.size(); }
+  double edge_length(uint32_t i) const {
+    return length(wires.position[wires.next(curve[i], i)] - wires.position[i]);
+  }
+  bool is_end(uint32_t b) const {
+    return bead[b].part == 0.0 && wires.is_end(curve[bead[b].edge], bead[b].edge);
+  }
+  bool is_free_end(uint32_t b) const { return bead[b].ring == b && is_end(b); }
+  uint32_t curve_of(uint32_t b) const { return curve[bead[b].edge]; }
+  WirePlace place_of(uint32_t b) const { return {bead[b].edge, bead[b].part}; }
+  Vec3 point_at(const WirePlace& place) const {
+    return point_of_place(wires, curve[place.edge], place);
+  }
+  Vec3 direction_at(const WirePlace& place) const;  /* along the curve, of any length */
+  Vec3 normal_at(const WirePlace& place) const;     /* not unit; zero where it is not known */
+  Origin origin_of(const WirePlace& place) const;
+
+  BeadPlace locate(const WirePlace& place) const;
+  /* The nearest loose end of the curve, no farther along it than `to_end`, or joined bead, within */
+  /* `to_node` as well. */
+  uint32_t special_near(const BeadPlace& place, double to_end, double to_node) const;
+  /* The place nearest to `target` on the same curve, within `reach` along it. */
+  WirePlace nearest_place(const WirePlace& near, const Vec3& target, double reach) const;
+  /* The bead at a place; a new one between beads. */
+  uint32_t make_bead(const WirePlace& place);
+  /* Makes the points of two beads one. */
+  void unite(uint32_t a, uint32_t b);
+  /* Makes points one that are no farther apart along a curve than `reach`, where something came to */
+  /* one of them, as where many curves meet in about one point. */
+  void unite_close(double reach);
+};
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/beads.h ======== */
 
 /* ======== begin src/network/bend.h ======== */
 /* Bends curves smoothly so that their joints come to given places. */
@@ -6145,8 +6243,8 @@ Status group_patches(const CurveVertices& vertices, Network* network,
 /* */
 /* In: borders, then pieces as vertices. Out: for each piece the patch that it is nearest to, if it */
 /* lies beside that surface nowhere: each vertex projects to its inside, no farther off than a share */
-/* of the root of its area, and normals agree in the mean. O(patches + pieces times patches whose */
-/* boxes they meet). */
+/* of the root of its area, and normals agree in the mean. O(patches + pieces times triangles of */
+/* patches whose boxes they meet). Source: the rule is our own. */
 
 namespace wireskin::network {
 
@@ -6235,7 +6333,7 @@ class KeptParts {
 /* In: a border that passes no vertex twice, the wished spacing. Out: points, those of the border */
 /* first, and triangles. A dome begins on a mesh that is coarser inside, so that most of its systems */
 /* are small; one last is solved at the wished spacing. A mesh that raising would make needles of */
-/* stays as it was. */
+/* stays as it was. Cost and sources: those of mesh/loop_mesh.h, mesh/dome.h and mesh/band.h. */
 
 namespace wireskin::network {
 
@@ -6271,7 +6369,8 @@ bool has_needles(const SpaceMesh& mesh);
 /* border all other curves leave to one side of it, the same along the whole border: where tangents */
 /* deny that, as splines do where a polygon turns sharply or another curve meets the border at a */
 /* small angle, secants and chords are asked, too, and the clearer nodes of the border decide on */
-/* the side. O(samples + segments log segments). */
+/* the side. O(samples + segments log segments). Source: J. Edmonds, "A Combinatorial Representation */
+/* for Polyhedral Surfaces", 1960 (rotation systems); the order where tangents fail is our own. */
 
 namespace wireskin::network {
 
@@ -6367,6 +6466,59 @@ Status mesh_polygon(Context& context, Span<const Vec2> border, double spacing, P
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/polygon_mesh.h ======== */
 
+/* ======== begin src/network/snap_order.h ======== */
+/* In which order approaches of curves are to be joined. */
+/* */
+/* In: the curves, their approaches, nearest first, the tolerance. Out: how exact the curves are (of */
+/* those drawn on a surface at least three quarters of the gaps are next to nothing) and the pass of */
+/* each approach. Of exact curves, ends that clearly meet a curve are settled first, or crossings */
+/* near them would take them away; curves side by side come last, when all is joined that crosses. */
+/* Of others what is nearest is what is likeliest: one pass. O(approaches). */
+
+namespace wireskin::network {
+
+/* Within one component insides are joined only this much nearer than the tolerance: where curves */
+/* cross, and not where they pass each other. */
+inline constexpr double k_crossing = 0.25;
+/* A gap of exact curves is no wider than this part of the tolerance. */
+inline constexpr double k_exact = 0.05;
+
+enum class SnapPass : uint8_t { settled, crosses, beside };
+
+struct SnapPlan {
+  Array<SnapPass> pass;  /* of each approach */
+  bool exact = false;
+
+  explicit SnapPlan(Context& context) : pass(context) {}
+};
+
+/* `complete`: nothing dangles, all is one component; such curves are never taken as exact. */
+Status plan_snaps(const Beads& beads, double tolerance, bool complete,
+                  Span<const Approach> approaches, SnapPlan* plan);
+
+/* Whether curves with these unit directions run along each other, either way. */
+bool run_along(const Vec3& a, const Vec3& b);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/snap_order.h ======== */
+
+/* ======== begin src/network/write_beads.h ======== */
+/* Strings of beads as curves again, once places on them were made one point. */
+/* */
+/* In: beads (network/beads.h). Out: the curves, with a sample for each bead. A point comes to the */
+/* mean of those of its former points that rank highest: nodes before insides of curves, these */
+/* before ends. The samples between follow (network/bend.h); curves on which nothing moves keep */
+/* their bits. Where a curve leaves a new node and comes back within `detour`, as at the tip of an */
+/* overshoot, that stretch is left out, unless no curve would remain. O(beads), but for the beads */
+/* within a detour of every new node. */
+
+namespace wireskin::network {
+
+Status write_beads(double detour, Beads* beads, Wires* out);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/write_beads.h ======== */
+
 /* ======== begin src/planar/cavity_side.h ======== */
 /* The constrained Delaunay triangulation of one side of a constraint's corridor: of the region */
 /* between a segment and a chain of edges on its left, each vertex of which sees the segment. */
@@ -6445,9 +6597,14 @@ Status lattice_points(Span<const LatticeObstacle> obstacles, double spacing, dou
 
 namespace wireskin::planar {
 
-/* Where sizes grow inward, and where they shrink. A growth of 0.18 gives better angles beside very */
-/* fine borders, but the coarser insides cost accuracy of curvature. */
+/* Where sizes grow inward, and where they shrink. Each row of a graded layer has fewer points than */
+/* the row before, and irregular vertices make up for that: beside a fine border, where most of the */
+/* triangles are, a growth of 0.25 leaves the median of their least angles under 50 degrees. From */
+/* half the spacing on, sizes grow faster: the triangles there are few, and the accuracy of */
+/* curvature prefers it. */
+inline constexpr double k_size_growth_fine = 0.2;
 inline constexpr double k_size_growth = 0.25;
+inline constexpr double k_fine_size = 0.5;  /* in spacings */
 inline constexpr double k_size_descent = 0.25;
 
 Status refine(Triangulation* t, Array<double>* sizes, double spacing, size_t most_vertices);
@@ -6575,21 +6732,12 @@ class LaplacianPairs {
 /* curvature of the surface is as smooth as it can be while the surface meets the normals given on */
 /* the curves. */
 /* */
-/* Unknowns: a displacement u per free vertex and a mean curvature h per vertex. On the mesh split */
-/* along the curves (a held vertex has one row in each patch it touches, on each side of a curve) */
-/* the integrated Laplacian of the displaced positions is asked to be -2 m h n, and h to have the */
-/* least square Laplacian: */
-/*   sum_r (g_r - (L u)_r - 2 m_r h_i(r))^2 / m_r + (c l)^4 h^T (Ls M^-1 Ls) h, */
-/*   g_r = -<(L v)_r + c_r, n_i(r)>, */
-/* and, where the curves foretell H on them (node_curvature.h), c l w (h - H)^2 more. There c_r is */
-/* the conormal of the patch's rim, made from the curve's positions and the given */
-/* normals: that is how these normals enter. Split rows are essential, merged ones never see them. */
-/* On open borders the rows of the last term are left out. Where a border's normal is not known it */
-/* has no conormal: there the row of the last term stays, as the natural condition, and the first */
-/* one's place is taken by a slight pull of h towards zero, without which a patch of no known normal */
-/* at all could have any constant h. One factorisation of size 2 n. Source: H. Moreton, C. Sequin, */
-/* "Functional Optimization for Fair Surface Design", 1992 (minimum variation surfaces), linearised */
-/* along the normals. */
+/* Unknowns: a displacement u per free vertex and a mean curvature h per vertex, over the mesh split */
+/* along the curves (a held vertex has one row in each patch that it touches, on each side of a */
+/* curve). The rows stand at their function in displace.cpp. One factorisation of size 2 n; next */
+/* steps solve similar systems by conjugate gradients with an old factor. */
+/* Source: H. Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992 (minimum */
+/* variation surfaces), linearised along the normals. */
 
 namespace wireskin::smooth {
 
@@ -10831,7 +10979,10 @@ static void make_unit(const Domain& domain, const Field& field) {
   }
 }
 
-/* In the planes there are no conormals, and nothing to aim at. */
+/* Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its */
+/* row is left out, and there is nothing to aim at. In space it is known up to the outer conormal c */
+/* of the border (L v + c = -2 h m n), so the row stays, with c taken from the positions and normals */
+/* given on the border; where none is given there is no c, and the row is left out. */
 static Status aim_at_conormals(Context& context, const Domain& domain, const Field& field,
                                Guided* guided) {
   if (domain.metric == Metric::planes) return {};
@@ -11803,8 +11954,6 @@ Status find_critical_points(const Complex& complex, CriticalPoints* critical) {
 /* ======== begin src/flow/arcs.cpp ======== */
 namespace wireskin::flow {
 
-static constexpr double k_cos_corner = 0.8191520442889918;  /* of 35 degrees */
-
 namespace {
 
 struct ArcEdge {
@@ -12216,6 +12365,13 @@ struct StationLine {
   }
 };
 
+/* A sample in the diametral ball of a segment. */
+struct Encroacher {
+  uint32_t sample = k_none;
+  double share = 0.0;  /* of the segment, up to its foot */
+  double gap = 0.0;    /* its distance from there */
+};
+
 }  /* namespace */
 
 static uint32_t pieces_for(double length, double step) {
@@ -12462,14 +12618,28 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
   return {};
 }
 
-static bool encroached(const PointGrid& grid, const Samples& samples, uint32_t i) {
+/* The sample in the segment's diametral ball whose foot on it is nearest to the middle. */
+/* Not one that all but coincides with an end. */
+static Encroacher find_encroacher(const PointGrid& grid, const Samples& samples, uint32_t i,
+                                  double diagonal) {
   const uint32_t p = samples.at[i], q = samples.at[i + 1];
   const Vec3 &a = samples.position[p], &b = samples.position[q];
-  return grid.any_near(0.5 * (a + b), 0.5 * length(b - a), [&](uint32_t r) {
+  const double square = dot(b - a, b - a);
+  const double same = k_coincidence * k_coincidence * diagonal * diagonal;
+  Encroacher best;
+  double best_off = DBL_MAX;
+  grid.any_near(0.5 * (a + b), 0.5 * length(b - a), [&](uint32_t r) {
     if (r == p || r == q) return false;
     const Vec3& c = samples.position[r];
-    return dot(a - c, b - c) < 0.0;
+    if (!(dot(a - c, b - c) < 0.0)) return false;
+    if (dot(a - c, a - c) < same || dot(b - c, b - c) < same) return false;
+    const double share = dot(c - a, b - a) / square, off = std::fabs(share - 0.5);
+    if (off > best_off || (off == best_off && r > best.sample)) return false;
+    best_off = off;
+    best = {r, share, length(c - a - share * (b - a))};
+    return false;
   });
+  return best;
 }
 
 static double power_of_two_near(double x) {
@@ -12478,19 +12648,33 @@ static double power_of_two_near(double x) {
   return x - power > 2.0 * power - x ? 2.0 * power : power;
 }
 
-/* Halfway; beside a node at a power of two from it, so that splits of all its arcs agree. */
-static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i) {
+/* Beside a node at a power of two from it, so that splits of all its arcs agree. Elsewhere at the */
+/* foot of the sample in the ball, whose ball is then clear of it however near it is: curves that */
+/* run side by side get samples side by side, not as many as their gap goes into their length. */
+/* Halfway if the foot is near an end. */
+static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i, double foot) {
+  constexpr double k_near_end = 0.2;
   const double from = samples.along[i], to = samples.along[i + 1], half = 0.5 * (to - from);
   const uint32_t p = samples.vertex[samples.at[i]], q = samples.vertex[samples.at[i + 1]];
   const bool at_p = p != k_none && arcs.is_node[p] != 0;
   const bool at_q = q != k_none && arcs.is_node[q] != 0;
-  if (at_p == at_q) return from + half;
-  return at_p ? from + power_of_two_near(half) : to - power_of_two_near(half);
+  if (at_p != at_q) return at_p ? from + power_of_two_near(half) : to - power_of_two_near(half);
+  if (foot < k_near_end || foot > 1.0 - k_near_end) return from + half;
+  return from + foot * (to - from);
+}
+
+/* Where splitting stops: what is nearer to a short segment than a small part of its length would */
+/* have it divided many times over, finer than any surface between the two could show. */
+static bool is_crowded(const Encroacher& near, double length, double greatest_step,
+                       double diagonal) {
+  constexpr double k_coinciding = 0.05;  /* of the length */
+  if (length < 2.0 * k_least_segment * diagonal) return true;
+  return length < 2.0 * k_least_step * greatest_step && near.gap < k_coinciding * length;
 }
 
 /* One pass over all segments; true in *any if one was split. */
-static Status split_encroached(Context& context, const Arcs& arcs, Samples* samples,
-                               Stations* stations, bool* any) {
+static Status split_encroached(Context& context, const Arcs& arcs, double greatest_step,
+                               Samples* samples, Stations* stations, bool* any) {
   PointGrid grid(context);
   TRY(grid.build(samples->position.span()));
   stations->start.clear();
@@ -12505,12 +12689,15 @@ static Status split_encroached(Context& context, const Arcs& arcs, Samples* samp
     for (uint32_t i = samples->start[a]; i <= last; ++i) {
       TRY(stations->along.push(samples->along[i]));
       if (++looked_at % k_segments_per_checkpoint == 0) TRY(context.checkpoint());
-      if (i == last || !encroached(grid, *samples, i)) continue;
-      if (samples->along[i + 1] - samples->along[i] < 2.0 * k_least_segment * arcs.diagonal) {
+      if (i == last) continue;
+      const Encroacher near = find_encroacher(grid, *samples, i, arcs.diagonal);
+      if (near.sample == k_none) continue;
+      const double length = samples->along[i + 1] - samples->along[i];
+      if (is_crowded(near, length, greatest_step, arcs.diagonal)) {
         ++samples->too_short;
         continue;
       }
-      TRY(stations->along.push(split_at(arcs, *samples, i)));
+      TRY(stations->along.push(split_at(arcs, *samples, i, near.share)));
       ++samples->splits;
       *any = true;
       if (stations->along.size() > k_most_samples) {
@@ -12529,7 +12716,7 @@ Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Sam
   TRY(divide_arcs(context, arcs, steps.span(), &stations));
   TRY(place_samples(context, arcs, stations, samples));
   for (bool any = true; any;) {
-    TRY(split_encroached(context, arcs, samples, &stations, &any));
+    TRY(split_encroached(context, arcs, greatest_step, samples, &stations, &any));
     if (any) TRY(place_samples(context, arcs, stations, samples));
   }
   return {};
@@ -14206,6 +14393,25 @@ struct OwnTriangles {
   }
 };
 
+/* Flat ears that several sheets meet at, and tails that are no wider: between a stretch of a curve */
+/* and the edge ab that passes over it. Instead of all ending at ab, each sheet goes on to the */
+/* curve, and the ear is left out. */
+struct SharedEars {
+  Array<uint32_t> first;  /* of each edge of the complex: ab's place in `inner`, or k_none */
+  Array<uint32_t> inner;  /* samples between a and b, from the edge's first end on, then k_none */
+  Array<uint32_t> left_out_for;  /* of each triangle: the edge whose ear it is in, or k_none */
+
+  explicit SharedEars(Context& context) : first(context), inner(context), left_out_for(context) {}
+};
+
+constexpr uint32_t k_most_of_ear = 32;
+constexpr double k_flat_ear = 0.25;  /* height, of the length of ab */
+
+struct Ear {
+  uint32_t triangle[k_most_of_ear], border[k_most_of_ear], inner[k_most_of_ear];
+  uint32_t count = 0, borders = 0;
+};
+
 struct LocalMesh {
   Array<uint32_t> parent;  /* corners that are one vertex, by union-find */
   Array<uint32_t> number;
@@ -14218,17 +14424,95 @@ struct LocalMesh {
 
 }  /* namespace */
 
-static Status gather_own(const Reconstruction& r, OwnTriangles* own) {
+/* The triangles from t on that no curve or branch parts, up to k_most_of_ear; their other borders. */
+static bool flood_ear(const Flow& flow, const Sheet& walls, uint32_t chord, Ear* ear) {
+  const Complex& complex = flow.complex;
+  ear->borders = 0;
+  for (uint32_t i = 0; i < ear->count; ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{ear->triangle[i]} + k];
+      if (e == chord) continue;
+      if (flow.curves.on_curve(e)) {
+        if (ear->borders == k_most_of_ear) return false;
+        ear->border[ear->borders++] = e;
+        continue;
+      }
+      if (walls.degree[e] != 2) return false;
+      for (const uint32_t u : complex.triangles_of(e)) {
+        bool known = walls.in[u] == 0;
+        for (uint32_t j = 0; j < ear->count; ++j) known = known || ear->triangle[j] == u;
+        if (known) continue;
+        if (ear->count == k_most_of_ear) return false;
+        ear->triangle[ear->count++] = u;
+      }
+    }
+  }
+  /* A disc without a vertex inside. */
+  return ear->borders == ear->count + 1;
+}
+
+/* Orders the border from one end of the chord to the other; false if it is no path close to it. */
+static bool walk_ear(const Flow& flow, uint32_t chord, Ear* ear) {
+  const Complex& complex = flow.complex;
+  const uint32_t from = complex.edge[2 * size_t{chord}], to = complex.edge[2 * size_t{chord} + 1];
+  const Vec3 &a = complex.point[from], along = complex.point[to] - a;
+  uint32_t at = from;
+  for (uint32_t i = 0; i < ear->borders; ++i) {
+    uint32_t next = k_none;
+    for (uint32_t j = i; j < ear->borders && next == k_none; ++j) {
+      const uint32_t* const end = &complex.edge[2 * size_t{ear->border[j]}];
+      if (end[0] != at && end[1] != at) continue;
+      next = end[0] == at ? end[1] : end[0];
+      ear->border[j] = ear->border[i];
+    }
+    if (next == k_none || (next == to) != (i + 1 == ear->borders)) return false;
+    const double off = length(cross(complex.point[next] - a, along));
+    if (off > k_flat_ear * dot(along, along)) return false;
+    ear->inner[i] = at = next;
+  }
+  return true;
+}
+
+static Status find_shared_ears(const Flow& flow, const Reconstruction& r, SharedEars* ears) {
+  const Complex& complex = flow.complex;
+  const Sheet& walls = r.topology.walls;
+  TRY(ears->first.assign(complex.edge_count(), k_none));
+  TRY(ears->left_out_for.assign(complex.triangle_count(), k_none));
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (walls.degree[e] < 3 || flow.curves.on_curve(e)) continue;
+    Ear found, ear;
+    uint32_t flat = 0;
+    for (const uint32_t t : complex.triangles_of(e)) {
+      if (walls.in[t] == 0) continue;
+      ear.count = 1;
+      ear.triangle[0] = t;
+      if (!flood_ear(flow, walls, e, &ear) || !walk_ear(flow, e, &ear)) continue;
+      found = ear;
+      ++flat;
+    }
+    if (flat != 1) continue;
+    ears->first[e] = static_cast<uint32_t>(ears->inner.size());
+    for (uint32_t i = 0; i + 1 < found.borders; ++i) TRY(ears->inner.push(found.inner[i]));
+    TRY(ears->inner.push(k_none));
+    for (uint32_t i = 0; i < found.count; ++i) ears->left_out_for[found.triangle[i]] = e;
+  }
+  return {};
+}
+
+static Status gather_own(const Reconstruction& r, const SharedEars& ears, OwnTriangles* own) {
   const Array<uint32_t>& owner = r.patches.owner;
   TRY(own->start.assign(size_t{r.patches.size()} + 1, 0));
   TRY(own->triangle.resize(owner.size()));
   TRY(own->place.assign(owner.size(), k_none));
-  for (const uint32_t p : owner) {
-    if (p != k_none) ++own->start[p];
+  const auto is_own = [&](uint32_t t) {
+    return owner[t] != k_none && ears.left_out_for[t] == k_none;
+  };
+  for (uint32_t t = 0; t < owner.size(); ++t) {
+    if (is_own(t)) ++own->start[owner[t]];
   }
   own->triangle.shrink(starts_from_counts(own->start.span()));
   for (uint32_t t = 0; t < owner.size(); ++t) {
-    if (owner[t] != k_none) own->triangle[own->start[owner[t]]++] = t;
+    if (is_own(t)) own->triangle[own->start[owner[t]]++] = t;
   }
   for (size_t p = r.patches.size(); p > 0; --p) own->start[p] = own->start[p - 1];
   own->start[0] = 0;
@@ -14317,10 +14601,63 @@ static Status cut_out(const Flow& flow, const Reconstruction& r, Span<const uint
   return {};
 }
 
+/* Splits the triangle with the side uv, among i and those from `begin` on, into a fan over the */
+/* samples that an ear has between u and v. */
+static Status fan_out(const Flow& flow, Span<const uint32_t> inner, bool backward, uint32_t u,
+                      uint32_t v, uint32_t i, uint32_t begin, LocalMesh* local) {
+  Array<uint32_t>& triangle = local->triangle;
+  uint32_t at = i, k = 0;
+  const auto has_side = [&] {
+    return triangle[3 * size_t{at} + k] == u && triangle[3 * size_t{at} + (k + 1) % 3] == v;
+  };
+  for (uint32_t next = begin; !has_side();) {
+    if (++k < 3) continue;
+    k = 0;
+    at = next++;
+  }
+  const uint32_t apex = triangle[3 * size_t{at} + (k + 2) % 3];
+  for (size_t j = 0; j < inner.size(); ++j) {
+    const uint32_t m = inner[backward ? inner.size() - 1 - j : j];
+    const uint32_t number = static_cast<uint32_t>(local->position.size());
+    TRY(local->position.push(flow.samples.position[m]));
+    TRY(local->sample.push(m));
+    TRY(triangle.push(u));
+    TRY(triangle.push(number));
+    TRY(triangle.push(apex));
+    u = number;
+  }
+  const uint32_t last[3] = {u, v, apex};
+  for (uint32_t c = 0; c < 3; ++c) triangle[3 * size_t{at} + c] = last[c];
+  return {};
+}
+
+/* Lets the triangles at shared ears go on to the curves. */
+static Status reach_curves(const Flow& flow, const Reconstruction& r, const SharedEars& ears,
+                           Span<const uint32_t> part, LocalMesh* local) {
+  for (uint32_t i = 0; !ears.inner.empty() && i < part.size(); ++i) {
+    const uint32_t begin = static_cast<uint32_t>(local->triangle.size() / 3);
+    uint32_t corner[3];
+    for (uint32_t k = 0; k < 3; ++k) corner[k] = local->triangle[3 * size_t{i} + k];
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t opposite = turned_corner(r, part[i], (k + 2) % 3);
+      const uint32_t e = flow.complex.triangle_edge[3 * size_t{part[i]} + opposite];
+      const uint32_t first = ears.first[e];
+      if (first == k_none) continue;
+      uint32_t count = 0;
+      while (ears.inner[first + count] != k_none) ++count;
+      const bool backward = local->sample[corner[k]] != flow.complex.edge[2 * size_t{e}];
+      TRY(fan_out(flow, ears.inner.span().part(first, count), backward, corner[k],
+                  corner[(k + 1) % 3], i, begin, local));
+    }
+  }
+  return {};
+}
+
 static Status refine_one(Context& context, const Flow& flow, const Reconstruction& r,
-                         const OwnTriangles& own, uint32_t p, double spacing, LocalMesh* local,
-                         RefinedPatches* refined) {
+                         const SharedEars& ears, const OwnTriangles& own, uint32_t p,
+                         double spacing, LocalMesh* local, RefinedPatches* refined) {
   TRY(cut_out(flow, r, own.of(p), own.place.span(), local));
+  TRY(reach_curves(flow, r, ears, own.of(p), local));
   const size_t held = local->position.size();
   if (refined->effort[p] != k_untouched) {
     const Status status =
@@ -14329,7 +14666,7 @@ static Status refine_one(Context& context, const Flow& flow, const Reconstructio
     /* A patch that is no surface (it touches itself along an edge) stays as it is. */
     if (status.code == Code::bad_mesh) {
       refined->effort[p] = k_untouched;
-      return refine_one(context, flow, r, own, p, spacing, local, refined);
+      return refine_one(context, flow, r, ears, own, p, spacing, local, refined);
     }
     TRY(status);
   }
@@ -14416,34 +14753,72 @@ static Status move_to_complex(Context& context, const Flow& flow, Array<uint32_t
   return {};
 }
 
-Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& reconstruction,
-                    double spacing, FlowMesh* mesh) {
+/* Refines all patches with as much effort as leaves them free of crossings. */
+static Status refine_all(Context& context, const Flow& flow, const Reconstruction& reconstruction,
+                         const SharedEars& ears, double spacing, Array<uint32_t>* pairs,
+                         FlowMesh* mesh) {
   const bool refine = spacing > 0.0;
   const uint32_t patches = reconstruction.patches.size();
   OwnTriangles own(context);
   LocalMesh local(context);
   RefinedPatches refined(context);
   Array<uint8_t> again(context);
-  Array<uint32_t> pairs(context);
-  TRY(gather_own(reconstruction, &own));
+  TRY(gather_own(reconstruction, ears, &own));
   TRY(refined.effort.assign(patches, refine ? k_full : k_untouched));
   TRY(refined.slice.assign(patches, Slice{}));
   TRY(again.assign(patches, 1));
   while (true) {
     for (uint32_t p = 0; p < patches; ++p) {
       if (again[p] == 0) continue;
-      TRY(refine_one(context, flow, reconstruction, own, p, spacing, &local, &refined));
+      TRY(refine_one(context, flow, reconstruction, ears, own, p, spacing, &local, &refined));
       TRY(context.checkpoint());
     }
     TRY(assemble(flow, refined, mesh));
-    TRY(find_crossings(context, mesh->position.span(), mesh->triangle.span(), k_most_pairs,
-                       &pairs));
-    if (!hold_back(*mesh, pairs.span(), refined.effort.span(), again.span())) break;
+    TRY(find_crossings(context, mesh->position.span(), mesh->triangle.span(), k_most_pairs, pairs));
+    if (!hold_back(*mesh, pairs->span(), refined.effort.span(), again.span())) break;
+  }
+  mesh->held_back = 0;
+  for (const uint8_t effort : refined.effort) mesh->held_back += refine && effort != k_full;
+  return {};
+}
+
+/* Gives up the ears that patches in crossings have, for only the complex itself is sure to be */
+/* embedded; true if there were any. */
+static bool give_up_ears(const Flow& flow, const Reconstruction& r, Span<const uint8_t> crossing,
+                         SharedEars* ears) {
+  bool any = false;
+  for (uint32_t e = 0; e < flow.complex.edge_count(); ++e) {
+    if (ears->first[e] == k_none) continue;
+    for (const uint32_t t : flow.complex.triangles_of(e)) {
+      const uint32_t owner = r.patches.owner[t];
+      if (owner != k_none && crossing[owner] != 0) ears->first[e] = k_none;
+    }
+    any = any || ears->first[e] == k_none;
+  }
+  for (uint32_t& e : ears->left_out_for) {
+    if (e != k_none && ears->first[e] == k_none) e = k_none;
+  }
+  return any;
+}
+
+Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& reconstruction,
+                    double spacing, FlowMesh* mesh) {
+  SharedEars ears(context);
+  Array<uint32_t> pairs(context);
+  Array<uint8_t> crossing(context);
+  TRY(find_shared_ears(flow, reconstruction, &ears));
+  TRY(refine_all(context, flow, reconstruction, ears, spacing, &pairs, mesh));
+  TRY(crossing.assign(reconstruction.patches.size(), 0));
+  for (int round = 0; !ears.inner.empty() && !pairs.empty(); ++round) {
+    constexpr int k_most_rounds = 3;
+    const bool all = round + 1 >= k_most_rounds || pairs.size() >= 2 * k_most_pairs;
+    for (const uint32_t t : pairs) crossing[mesh->patch[t]] = 1;
+    for (uint8_t& flag : crossing) flag = all ? 1 : flag;
+    if (!give_up_ears(flow, reconstruction, crossing.span(), &ears)) break;
+    TRY(refine_all(context, flow, reconstruction, ears, spacing, &pairs, mesh));
   }
   TRY(move_to_complex(context, flow, &pairs, mesh));
   mesh->crossings = static_cast<uint32_t>(pairs.size() / 2);
-  mesh->held_back = 0;
-  for (const uint8_t effort : refined.effort) mesh->held_back += refine && effort != k_full;
   return {};
 }
 
@@ -15778,37 +16153,13 @@ namespace wireskin::network {
 
 /* Insides are connected if the network joins them within this many tolerances. */
 static constexpr double k_connected = 4.0;
-/* Within one component insides are joined only this much nearer than the tolerance: where curves */
-/* cross, and not where they pass each other. A complete network rarely has any crossing left. */
-static constexpr double k_crossing = 0.25, k_crossing_in_complete = 0.01;
+/* What k_crossing is in a complete network, which rarely has any crossing left. */
+static constexpr double k_crossing_in_complete = 0.01;
 /* The gap at a crossing tells how exact the curves are: a node that is farther away than this many */
-/* gaps, and than this part of the tolerance, is another place. */
-static constexpr double k_gaps_to_node = 3.0, k_exact = 0.05;
-/* The order in which approaches are joined. */
-static constexpr uint8_t k_settled = 0, k_crosses = 1, k_beside = 2;
+/* gaps, and than k_exact of the tolerance, is another place. */
+static constexpr double k_gaps_to_node = 3.0;
 /* New nodes that are nearer along a curve than this part of the tolerance are one. */
 static constexpr double k_one_node = 0.01;
-/* Curves whose directions differ by less than this sine run along each other. */
-static constexpr double k_along = 0.17;
-
-/* A sample, or a place that became one. The beads of a curve are a list, the beads of a point a */
-/* ring. Beads of samples have the sample's index. */
-struct Bead {
-  Vec3 position;
-  double to_next = 0.0;  /* along the chords */
-  double part = 0.0;     /* of the edge after sample `edge`; zero for samples */
-  uint32_t edge = k_none;
-  uint32_t previous = k_none, next = k_none;
-  uint32_t ring = k_none;
-  uint32_t given = k_none;  /* the point before snapping */
-  bool joined = false;      /* that had more than one sample */
-};
-
-/* A place in the list: a bead, or that far behind it. */
-struct BeadPlace {
-  uint32_t bead = k_none;
-  double behind = 0.0;
-};
 
 struct Meeting {
   WirePlace a, b;
@@ -15818,67 +16169,38 @@ struct Meeting {
 
 class Snapper {
  public:
-  Snapper(double tolerance, const Wires& wires)
-      : wires_(wires),
-        tolerance_(tolerance),
-        bead_(wires.position.context()),
-        curve_(wires.position.context()),
-        component_(wires.position.context()),
-        best_(wires.position.context()),
-        stamp_(wires.position.context()),
-        queue_(wires.position.context()),
-        touched_(wires.position.context()),
-        sets_(wires.position.context()),
-        parts_(wires.position.context()) {}
+  Snapper(double tolerance, Beads* beads)
+      : tolerance_(tolerance),
+        beads_(*beads),
+        component_(beads->context()),
+        best_(beads->context()),
+        stamp_(beads->context()),
+        queue_(beads->context()),
+        parts_(beads->context()) {}
 
   Status run(SnapResult* result);
-  Status write(Wires* out);
 
  private:
-  Context& context() const { return wires_.position.context(); }
-  Status string_beads(size_t approaches);
-  double edge_length(uint32_t i) const {
-    return length(wires_.position[wires_.next(curve_[i], i)] - wires_.position[i]);
-  }
-  bool is_end(uint32_t b) const {
-    return bead_[b].part == 0.0 && wires_.is_end(curve_[bead_[b].edge], bead_[b].edge);
-  }
-  bool is_free_end(uint32_t b) const { return bead_[b].ring == b && is_end(b); }
-  uint32_t curve_of(uint32_t b) const { return curve_[bead_[b].edge]; }
-
-  BeadPlace locate(const WirePlace& place) const;
+  Context& context() const { return beads_.context(); }
+  const Wires& wires() const { return beads_.wires; }
   double node_reach(double gap) const;
-  Status plan(Span<const Approach> approaches, Array<uint8_t>* pass);
-  uint32_t special_near(const BeadPlace& place, double reach) const;
-  WirePlace nearest_place(const WirePlace& near, const Vec3& target) const;
+  double crossing() const { return (complete_ ? k_crossing_in_complete : k_crossing) * tolerance_; }
   bool would_touch(uint32_t bead, const WirePlace& place) const;
   uint32_t promote(const WirePlace& place, const WirePlace& other, const Vec3& at,
                    double reach) const;
+  Meeting meet(const Approach& approach, double reach) const;
   Status relax(uint32_t bead, double distance, double radius);
   Status connected(const BeadPlace& a, const BeadPlace& b, double radius, bool own, bool* result);
-  uint32_t make_bead(const WirePlace& place);
-  Origin origin_of(const WirePlace& place) const;
   double detour(uint32_t free_ends, double distance, double reach) const;
-  Vec3 direction_at(const WirePlace& place) const;
-  Vec3 normal_at(const WirePlace& place) const;
-  bool ends_on(const Approach& approach) const;
-  bool is_beside(const Approach& approach) const;
-  Meeting meet(const Approach& approach, double reach) const;
   Status unite(const Meeting& meeting, SnapResult* result);
   Status join(const Approach& approach, bool beside, SnapResult* result);
+  Status join_all(Span<const Approach> approaches, const SnapPlan& plan, SnapResult* result);
   Status count_open(Span<const Approach> approaches, uint32_t* open);
-  void unite_points(uint32_t a, uint32_t b);
-  void unite_close_nodes();
-  void list_beads(uint32_t c, Array<uint32_t>* order, Array<double>* arc);
-  Vec3 target_of(uint32_t root, Span<uint32_t> seen, uint32_t mark) const;
-  Status bend(Span<Vec3> displacement, Span<uint8_t> pinned);
 
-  const Wires& wires_;
   double tolerance_;
+  Beads& beads_;
   bool exact_ = false;  /* most gaps are next to nothing */
   bool complete_ = false;
-  Array<Bead> bead_;
-  Array<uint32_t> curve_;      /* of each sample */
   Array<uint32_t> component_;  /* of each curve, before snapping */
   /* The search for connections: distances that hold where the stamp is the current one. */
   Array<double> best_;
@@ -15886,125 +16208,22 @@ class Snapper {
   Array<uint32_t> queue_;
   uint32_t now_ = 0;
   uint32_t steps_ = 0;
-  Array<uint8_t> touched_;  /* of each bead that names a point: something came to it */
-  DisjointSets sets_;
   DisjointSets parts_;  /* of the components before snapping */
 };
-
-Status Snapper::string_beads(size_t approaches) {
-  const uint32_t n = wires_.samples();
-  const size_t room = n + 2 * approaches;
-  if (room >= k_none) return fail(Code::too_large, "too many near places for 32-bit indices");
-  TRY(bead_.reserve(room));
-  TRY(best_.assign(room, 0.0));
-  TRY(stamp_.assign(room, 0));
-  TRY(touched_.assign(room, 0));
-  TRY(sets_.reset(static_cast<uint32_t>(room)));
-  PointMembers members(context());
-  TRY(list_members(wires_, &members));
-  for (uint32_t i = 0; i < n; ++i) {
-    Bead bead;
-    bead.position = wires_.position[i];
-    bead.edge = i;
-    bead.next = wires_.next(curve_[i], i);
-    bead.previous = wires_.previous(curve_[i], i);
-    if (bead.next != k_none) bead.to_next = edge_length(i);
-    bead.given = wires_.point[i];
-    bead_.push_reserved(bead);
-  }
-  for (uint32_t p = 0; p < wires_.points; ++p) {
-    const Span<const uint32_t> own = members[p];
-    for (size_t k = 0; k < own.size(); ++k) {
-      bead_[own[k]].ring = own[(k + 1) % own.size()];
-      bead_[own[k]].joined = own.size() > 1;
-      sets_.unite(own[0], own[k]);
-      /* Samples of one number that the caller gave at different places meet. */
-      if (length(wires_.position[own[k]] - wires_.position[own[0]]) > 1e-9) touched_[own[0]] = 1;
-    }
-  }
-  return {};
-}
-
-BeadPlace Snapper::locate(const WirePlace& place) const {
-  uint32_t b = place.edge;
-  if (place.part == 0.0) return {b, 0.0};
-  while (bead_[bead_[b].next].part != 0.0 && bead_[bead_[b].next].part <= place.part) {
-    b = bead_[b].next;
-  }
-  return {b, (place.part - bead_[b].part) * edge_length(place.edge)};
-}
 
 double Snapper::node_reach(double gap) const {
   const double reach = k_exact * tolerance_ + k_gaps_to_node * gap;
   return exact_ && reach < tolerance_ ? reach : tolerance_;
 }
 
-/* The nearest loose end of the curve, no farther along it than the tolerance, or joined bead within */
-/* `reach`. */
-uint32_t Snapper::special_near(const BeadPlace& place, double reach) const {
-  const auto special = [&](uint32_t b, double away) {
-    return bead_[b].ring != b ? away <= reach : is_end(b);
-  };
-  uint32_t found = k_none;
-  double away = place.behind, least = tolerance_;
-  for (uint32_t b = place.bead; b != k_none && away <= least;) {
-    if (special(b, away)) {
-      found = b;
-      least = away;
-      break;
-    }
-    b = bead_[b].previous;
-    if (b != k_none) away += bead_[b].to_next;
-    if (b == place.bead) break;
-  }
-  away = bead_[place.bead].to_next - place.behind;
-  for (uint32_t b = bead_[place.bead].next; b != k_none && away < least; b = bead_[b].next) {
-    if (special(b, away)) return b;
-    away += bead_[b].to_next;
-    if (b == place.bead) break;
-  }
-  return found;
-}
-
-/* The place nearest to `target` on the same curve, within two tolerances along it. */
-WirePlace Snapper::nearest_place(const WirePlace& near, const Vec3& target) const {
-  const uint32_t c = curve_[near.edge];
-  WirePlace best = near;
-  double least = length(point_of_place(wires_, c, near) - target);
-  const auto consider = [&](uint32_t i) {
-    const WirePlace place = nearest_on_edge(wires_, c, i, target);
-    const double distance = length(point_of_place(wires_, c, place) - target);
-    if (distance < least) {
-      least = distance;
-      best = place;
-    }
-  };
-  double away = 0.0;
-  uint32_t steps = 0;
-  for (uint32_t i = near.edge; wires_.next(c, i) != k_none && away <= 2.0 * tolerance_;) {
-    consider(i);
-    if (i != near.edge) away += edge_length(i);
-    i = wires_.next(c, i);
-    if (++steps == wires_.size(c)) return best;
-  }
-  away = 0.0;
-  for (uint32_t i = near.edge; wires_.previous(c, i) != k_none && away <= 2.0 * tolerance_;) {
-    i = wires_.previous(c, i);
-    consider(i);
-    away += edge_length(i);
-    if (++steps >= 2 * wires_.size(c)) return best;
-  }
-  return best;
-}
-
 /* Whether the curve of `place`, coming to the node of bead b, would meet a curve there that runs */
 /* along it. */
 bool Snapper::would_touch(uint32_t b, const WirePlace& place) const {
-  const Vec3 own = unit(direction_at(place));
-  for (uint32_t other = bead_[b].ring; other != b; other = bead_[other].ring) {
-    if (curve_of(other) == curve_[place.edge]) continue;
-    const Vec3 there = unit(direction_at({bead_[other].edge, bead_[other].part}));
-    if (length(cross(own, there)) < k_along) return true;
+  const Vec3 own = unit(beads_.direction_at(place));
+  for (uint32_t other = beads_.bead[b].ring; other != b; other = beads_.bead[other].ring) {
+    if (beads_.curve_of(other) == beads_.curve[place.edge]) continue;
+    const Vec3 there = unit(beads_.direction_at(beads_.place_of(other)));
+    if (run_along(own, there)) return true;
   }
   return false;
 }
@@ -16013,149 +16232,25 @@ bool Snapper::would_touch(uint32_t b, const WirePlace& place) const {
 /* place that comes to it, at the point `at`. */
 uint32_t Snapper::promote(const WirePlace& place, const WirePlace& other, const Vec3& at,
                           double reach) const {
-  const uint32_t b = special_near(locate(place), reach);
+  const uint32_t b = beads_.special_near(beads_.locate(place), tolerance_, reach);
   if (b == k_none) return k_none;
-  const double gap = length(bead_[b].position - at);
-  if (is_free_end(b)) return gap <= tolerance_ ? b : k_none;
+  const double gap = length(beads_.bead[b].position - at);
+  if (beads_.is_free_end(b)) return gap <= tolerance_ ? b : k_none;
   if (!(gap <= reach)) return k_none;
   return exact_ && gap > k_one_node * tolerance_ && would_touch(b, other) ? k_none : b;
-}
-
-Status Snapper::relax(uint32_t bead, double distance, double radius) {
-  if (bead == k_none || !(distance <= radius)) return {};
-  if (stamp_[bead] == now_ && best_[bead] <= distance) return {};
-  stamp_[bead] = now_;
-  best_[bead] = distance;
-  if (++steps_ % 16384 == 0) TRY(context().checkpoint());
-  return queue_.push(bead);
-}
-
-/* Whether the network leads from a to b within `radius`; with `own` on their own curves alone. */
-Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius, bool own,
-                          bool* result) {
-  const uint32_t curve_a = curve_of(a.bead), curve_b = curve_of(b.bead);
-  ++now_;
-  queue_.clear();
-  TRY(relax(a.bead, a.behind, radius));
-  if (a.behind > 0.0) TRY(relax(bead_[a.bead].next, bead_[a.bead].to_next - a.behind, radius));
-  for (size_t k = 0; k < queue_.size(); ++k) {
-    const uint32_t u = queue_[k], before = bead_[u].previous;
-    const double distance = best_[u];
-    TRY(relax(bead_[u].ring, distance, radius));
-    if (own && curve_of(u) != curve_a && curve_of(u) != curve_b) continue;
-    TRY(relax(bead_[u].next, distance + bead_[u].to_next, radius));
-    if (before != k_none) TRY(relax(before, distance + bead_[before].to_next, radius));
-  }
-  const auto reached = [&](uint32_t bead, double behind) {
-    return bead != k_none && stamp_[bead] == now_ && best_[bead] + behind <= radius;
-  };
-  *result = reached(b.bead, b.behind);
-  if (b.behind > 0.0) {
-    *result = *result || reached(bead_[b.bead].next, bead_[b.bead].to_next - b.behind);
-  }
-  *result = *result || (a.bead == b.bead && std::fabs(a.behind - b.behind) <= radius);
-  return {};
-}
-
-/* The bead at a place; a new one between beads. */
-uint32_t Snapper::make_bead(const WirePlace& place) {
-  const BeadPlace at = locate(place);
-  constexpr double k_same = 1e-3;  /* of the edge: nearer than this a sample serves */
-  const Bead& before = bead_[at.bead];
-  if (at.behind <= k_same * before.to_next) return at.bead;
-  if (before.to_next - at.behind <= k_same * before.to_next) return before.next;
-  Bead bead;
-  bead.position = point_of_place(wires_, curve_[place.edge], place);
-  bead.part = place.part;
-  bead.edge = place.edge;
-  bead.previous = at.bead;
-  bead.next = before.next;
-  bead.to_next = before.to_next - at.behind;
-  const uint32_t index = static_cast<uint32_t>(bead_.size());
-  bead.ring = index;
-  bead.given = wires_.points + (index - wires_.samples());
-  bead_[at.bead].next = index;
-  bead_[at.bead].to_next = at.behind;
-  bead_[bead.next].previous = index;
-  bead_.push_reserved(bead);
-  return index;
-}
-
-Origin Snapper::origin_of(const WirePlace& place) const {
-  if (place.part == 0.0) return wires_.origin[place.edge];
-  const EdgeOrigin& along = wires_.along[place.edge];
-  return {along.curve, along.sample, along.backwards ? 1.0 - place.part : place.part};
-}
-
-/* How long a way through the network counts as a connection. A loose end is there to be joined: */
-/* only the tip of a curve that has crossed the other one (at 30 degrees or more) already is not. */
-double Snapper::detour(uint32_t free_ends, double distance, double reach) const {
-  if (free_ends == 0) return k_connected * reach;
-  const double factor = free_ends == 1 ? 4.0 : 2.0, least = free_ends == 1 ? 1.0 : 0.5;
-  return factor * distance > least * tolerance_ ? factor * distance : least * tolerance_;
-}
-
-/* Along the curve, of any length. */
-Vec3 Snapper::direction_at(const WirePlace& place) const {
-  constexpr double k_step = 1.0 / 16.0;
-  const uint32_t c = curve_[place.edge], before = wires_.previous(c, place.edge);
-  if (wires_.next(c, place.edge) == k_none) {
-    return wires_.position[place.edge] - point_of_place(wires_, c, {before, 1.0 - k_step});
-  }
-  const double step = place.part + k_step < 1.0 ? k_step : -k_step;
-  const Vec3 there = point_of_place(wires_, c, {place.edge, place.part + step});
-  return (1.0 / step) * (there - point_of_place(wires_, c, place));
-}
-
-/* Not unit; zero where it is not known. */
-Vec3 Snapper::normal_at(const WirePlace& place) const {
-  const uint32_t next = wires_.next(curve_[place.edge], place.edge);
-  const Vec3& own = wires_.normal[place.edge];
-  if (place.part == 0.0 || next == k_none) return own;
-  return (1.0 - place.part) * own + place.part * wires_.normal[next];
-}
-
-/* Whether an end of a curve clearly meets the other curve. */
-bool Snapper::ends_on(const Approach& approach) const {
-  const double near = k_crossing * tolerance_;
-  const auto near_end = [&](const WirePlace& place, const Vec3& at) {
-    const uint32_t c = curve_[place.edge];
-    if (wires_.closed[c]) return false;
-    const Vec3 &first = wires_.position[wires_.start[c]],
-               &last = wires_.position[wires_.start[c + 1] - 1];
-    return length(first - at) <= near || length(last - at) <= near;
-  };
-  return approach.distance <= near &&
-         (near_end(approach.a, approach.at_a) || near_end(approach.b, approach.at_b));
-}
-
-/* Whether the curves pass each other side by side there instead of crossing: they run along each */
-/* other, or the gap between them lies in the surface. */
-bool Snapper::is_beside(const Approach& approach) const {
-  if (approach.distance <= k_exact * tolerance_) return false;
-  const Vec3 gap = unit(approach.at_b - approach.at_a);
-  const Vec3 along_a = unit(direction_at(approach.a)), along_b = unit(direction_at(approach.b));
-  const auto square = [](double x) { return x * x; };
-  /* One goes on where the other one ends. */
-  if (square(dot(gap, along_a)) + square(dot(gap, along_b)) > 0.5) return false;
-  const Vec3 a = normal_at(approach.a), b = normal_at(approach.b);
-  if (a != Vec3{} && b != Vec3{}) {
-    return square(dot(gap, unit(a))) + square(dot(gap, unit(b))) < 0.5;
-  }
-  return length(cross(along_a, along_b)) < k_along;
 }
 
 /* The places that are to be joined: those of the approach, or the ends and nodes near them. */
 Meeting Snapper::meet(const Approach& approach, double reach) const {
   Meeting m = {approach.a, approach.b, approach.at_a, approach.at_b, 0};
   const auto take = [&](uint32_t bead, WirePlace* place, Vec3* at) {
-    *place = {bead_[bead].edge, bead_[bead].part};
-    *at = bead_[bead].position;
-    m.free_ends += is_free_end(bead);
+    *place = beads_.place_of(bead);
+    *at = beads_.bead[bead].position;
+    m.free_ends += beads_.is_free_end(bead);
   };
   const auto follow = [this](const Vec3& target, WirePlace* place, Vec3* at) {
-    *place = nearest_place(*place, target);
-    *at = point_of_place(wires_, curve_[place->edge], *place);
+    *place = beads_.nearest_place(*place, target, 2.0 * tolerance_);
+    *at = beads_.point_at(*place);
   };
   const uint32_t x = promote(m.a, m.b, m.at_b, reach);
   if (x != k_none) {
@@ -16172,24 +16267,62 @@ Meeting Snapper::meet(const Approach& approach, double reach) const {
   return m;
 }
 
-void Snapper::unite_points(uint32_t a, uint32_t b) {
-  if (!sets_.unite(a, b)) return;
-  const uint32_t kept = bead_[a].ring;
-  bead_[a].ring = bead_[b].ring;
-  bead_[b].ring = kept;
-  touched_[sets_.find(a)] = 1;
+Status Snapper::relax(uint32_t bead, double distance, double radius) {
+  if (bead == k_none || !(distance <= radius)) return {};
+  if (stamp_[bead] == now_ && best_[bead] <= distance) return {};
+  stamp_[bead] = now_;
+  best_[bead] = distance;
+  if (++steps_ % 16384 == 0) TRY(context().checkpoint());
+  return queue_.push(bead);
+}
+
+/* Whether the network leads from a to b within `radius`; with `own` on their own curves alone. */
+Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius, bool own,
+                          bool* result) {
+  const uint32_t curve_a = beads_.curve_of(a.bead), curve_b = beads_.curve_of(b.bead);
+  const Span<const Bead> bead = beads_.bead.span();
+  ++now_;
+  queue_.clear();
+  TRY(relax(a.bead, a.behind, radius));
+  if (a.behind > 0.0) TRY(relax(bead[a.bead].next, bead[a.bead].to_next - a.behind, radius));
+  for (size_t k = 0; k < queue_.size(); ++k) {
+    const uint32_t u = queue_[k], before = bead[u].previous;
+    const double distance = best_[u];
+    TRY(relax(bead[u].ring, distance, radius));
+    if (own && beads_.curve_of(u) != curve_a && beads_.curve_of(u) != curve_b) continue;
+    TRY(relax(bead[u].next, distance + bead[u].to_next, radius));
+    if (before != k_none) TRY(relax(before, distance + bead[before].to_next, radius));
+  }
+  const auto reached = [&](uint32_t at, double behind) {
+    return at != k_none && stamp_[at] == now_ && best_[at] + behind <= radius;
+  };
+  *result = reached(b.bead, b.behind);
+  if (b.behind > 0.0) {
+    *result = *result || reached(bead[b.bead].next, bead[b.bead].to_next - b.behind);
+  }
+  *result = *result || (a.bead == b.bead && std::fabs(a.behind - b.behind) <= radius);
+  return {};
+}
+
+/* How long a way through the network counts as a connection. A loose end is there to be joined: */
+/* only the tip of a curve that has crossed the other one (at 30 degrees or more) already is not. */
+double Snapper::detour(uint32_t free_ends, double distance, double reach) const {
+  if (free_ends == 0) return k_connected * reach;
+  const double factor = free_ends == 1 ? 4.0 : 2.0, least = free_ends == 1 ? 1.0 : 0.5;
+  return factor * distance > least * tolerance_ ? factor * distance : least * tolerance_;
 }
 
 Status Snapper::unite(const Meeting& m, SnapResult* result) {
-  const uint32_t x = make_bead(m.a), z = make_bead(m.b);
-  if (sets_.find(x) == sets_.find(z)) return {};
-  Snap snap = {origin_of(m.a), origin_of(m.b), m.at_a, m.at_b, 0.0, SnapKind::inside_inside};
+  const uint32_t x = beads_.make_bead(m.a), z = beads_.make_bead(m.b);
+  if (beads_.sets.find(x) == beads_.sets.find(z)) return {};
+  Snap snap = {beads_.origin_of(m.a),  beads_.origin_of(m.b), m.at_a, m.at_b, 0.0,
+               SnapKind::inside_inside};
   snap.distance = length(m.at_a - m.at_b);
-  if (is_end(x) || is_end(z)) snap.kind = SnapKind::end_inside;
-  if (is_end(x) && is_end(z)) snap.kind = SnapKind::end_end;
+  if (beads_.is_end(x) || beads_.is_end(z)) snap.kind = SnapKind::end_inside;
+  if (beads_.is_end(x) && beads_.is_end(z)) snap.kind = SnapKind::end_end;
   TRY(result->snaps.push(snap));
-  unite_points(x, z);
-  parts_.unite(component_[curve_of(x)], component_[curve_of(z)]);
+  beads_.unite(x, z);
+  parts_.unite(component_[beads_.curve_of(x)], component_[beads_.curve_of(z)]);
   return {};
 }
 
@@ -16201,21 +16334,33 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
   const Meeting m = meet(approach, reach);
   const double distance = length(m.at_a - m.at_b);
   if (!(distance <= tolerance_)) return {};
-  const uint32_t a = component_[curve_[m.a.edge]], b = component_[curve_[m.b.edge]];
-  const double crossing = (complete_ ? k_crossing_in_complete : k_crossing) * tolerance_;
+  const uint32_t a = component_[beads_.curve[m.a.edge]], b = component_[beads_.curve[m.b.edge]];
   if (m.free_ends == 0) {
-    if (a == b && distance > crossing) return {};
+    if (a == b && distance > crossing()) return {};
     if (beside && parts_.find(a) == parts_.find(b)) return {};
   }
   bool together = false;
   const bool on_it = exact_ && m.free_ends == 1 && distance <= k_exact * tolerance_;
-  TRY(connected(locate(m.a), locate(m.b), detour(m.free_ends, distance, reach), on_it, &together));
-  if (!together) return unite(m, result);
-  if (!exact_ || m.free_ends > 0 || beside || approach.distance > crossing) return {};
-  TRY(connected(locate(approach.a), locate(approach.b), detour(0, distance, reach), true,
+  TRY(connected(beads_.locate(m.a), beads_.locate(m.b), detour(m.free_ends, distance, reach), on_it,
                 &together));
+  if (!together) return unite(m, result);
+  if (!exact_ || m.free_ends > 0 || beside || approach.distance > crossing()) return {};
+  TRY(connected(beads_.locate(approach.a), beads_.locate(approach.b), detour(0, distance, reach),
+                true, &together));
   if (together) return {};
   return unite({approach.a, approach.b, approach.at_a, approach.at_b, 0}, result);
+}
+
+Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
+                         SnapResult* result) {
+  constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
+  for (const SnapPass now : k_order) {
+    for (size_t k = 0; k < approaches.size(); ++k) {
+      if (plan.pass[k] == now) TRY(join(approaches[k], now == SnapPass::beside, result));
+      if (k % 64 == 63) TRY(context().checkpoint());
+    }
+  }
+  return {};
 }
 
 /* Pairs of components that come nearer to each other than the tolerance. */
@@ -16225,12 +16370,14 @@ Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
   };
   DisjointSets joined(context());
   Array<Pair> pairs(context());
-  TRY(joined.reset(wires_.curves()));
-  for (uint32_t b = 0; b < bead_.size(); ++b) joined.unite(curve_of(b), curve_of(bead_[b].ring));
+  TRY(joined.reset(wires().curves()));
+  for (uint32_t b = 0; b < beads_.bead.size(); ++b) {
+    joined.unite(beads_.curve_of(b), beads_.curve_of(beads_.bead[b].ring));
+  }
   TRY(pairs.reserve(approaches.size()));
   for (const Approach& approach : approaches) {
-    const uint32_t a = joined.find(curve_[approach.a.edge]);
-    const uint32_t b = joined.find(curve_[approach.b.edge]);
+    const uint32_t a = joined.find(beads_.curve[approach.a.edge]);
+    const uint32_t b = joined.find(beads_.curve[approach.b.edge]);
     if (a != b) pairs.push_reserved(a < b ? Pair{a, b} : Pair{b, a});
   }
   const auto less = [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; };
@@ -16240,224 +16387,40 @@ Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
   return {};
 }
 
-/* In which pass each approach is joined. Of exact curves, ends that clearly meet a curve are */
-/* settled first, or crossings near them would take them away; curves side by side come last, when */
-/* all is joined that crosses. Of others what is nearest is what is likeliest. */
-Status Snapper::plan(Span<const Approach> approaches, Array<uint8_t>* pass) {
-  TRY(pass->resize(approaches.size()));
-  size_t others = 0, exact = 0;
-  for (size_t k = 0; k < approaches.size(); ++k) {
-    const Approach& a = approaches[k];
-    (*pass)[k] = is_beside(a) ? k_beside : ends_on(a) ? k_settled : k_crosses;
-    if ((*pass)[k] == k_beside) continue;
-    ++others;
-    exact += a.distance <= k_exact * tolerance_;
-  }
-  exact_ = !complete_ && 4 * exact >= 3 * others;
-  for (size_t k = 0; k < pass->size() && !exact_; ++k) (*pass)[k] = k_crosses;
-  return {};
-}
-
 Status Snapper::run(SnapResult* result) {
   WireCounts counts;
   Array<Approach> approaches(context());
-  TRY(curve_of_samples(wires_, &curve_));
-  TRY(count_wires(wires_, &component_, &counts));
+  TRY(curve_of_samples(wires(), &beads_.curve));
+  TRY(count_wires(wires(), &component_, &counts));
   complete_ = counts.dangling == 0 && counts.components == 1;
   const double reach = (complete_ ? k_crossing_in_complete : 1.0) * tolerance_;
-  TRY(find_approaches(wires_, curve_.span(), reach, &approaches));
+  TRY(find_approaches(wires(), beads_.curve.span(), reach, &approaches));
   sort(approaches.span(), [](const Approach& p, const Approach& q) {
     if (p.distance != q.distance) return p.distance < q.distance;
     if (p.a.edge != q.a.edge) return p.a.edge < q.a.edge;
     if (p.b.edge != q.b.edge) return p.b.edge < q.b.edge;
     return p.a.part != q.a.part ? p.a.part < q.a.part : p.b.part < q.b.part;
   });
-  TRY(string_beads(approaches.size()));
-  TRY(count_open(approaches.span(), &result->open_before));
-  Array<uint8_t> pass(context());
+  TRY(beads_.string_samples(approaches.size()));
+  TRY(best_.assign(beads_.room(), 0.0));
+  TRY(stamp_.assign(beads_.room(), 0));
   TRY(parts_.reset(counts.components));
-  TRY(plan(approaches.span(), &pass));
-  for (uint8_t now = k_settled; now <= k_beside; ++now) {
-    for (size_t k = 0; k < approaches.size(); ++k) {
-      if (pass[k] == now) TRY(join(approaches[k], now == k_beside, result));
-      if (k % 64 == 63) TRY(context().checkpoint());
-    }
-  }
-  unite_close_nodes();
+  TRY(count_open(approaches.span(), &result->open_before));
+  SnapPlan plan(context());
+  TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), &plan));
+  exact_ = plan.exact;
+  TRY(join_all(approaches.span(), plan, result));
+  beads_.unite_close(k_one_node * tolerance_);
   return count_open(approaches.span(), &result->open_after);
-}
-
-/* Where the beads of a point meet: the mean of the places of those of its former points that rank */
-/* highest, each counted once. */
-Vec3 Snapper::target_of(uint32_t root, Span<uint32_t> seen, uint32_t mark) const {
-  const auto rank = [this](uint32_t b) { return bead_[b].joined ? 2 : is_end(b) ? 0 : 1; };
-  int highest = 0;
-  uint32_t b = root;
-  do {
-    highest = rank(b) > highest ? rank(b) : highest;
-    b = bead_[b].ring;
-  } while (b != root);
-  Vec3 sum, first;
-  uint32_t count = 0;
-  do {
-    if (rank(b) == highest && seen[bead_[b].given] != mark) {
-      seen[bead_[b].given] = mark;
-      if (count == 0) first = bead_[b].position;
-      sum += bead_[b].position;
-      ++count;
-    }
-    b = bead_[b].ring;
-  } while (b != root);
-  return count == 1 ? first : (1.0 / count) * sum;
-}
-
-Status Snapper::bend(Span<Vec3> displacement, Span<uint8_t> pinned) {
-  Array<double> arc(context());
-  Array<uint32_t> order(context());
-  Array<uint8_t> pins(context());
-  Array<Vec3> shift(context());
-  TRY(arc.reserve(bead_.size()));
-  TRY(order.reserve(bead_.size()));
-  TRY(pins.reserve(bead_.size()));
-  TRY(shift.reserve(bead_.size()));
-  for (uint32_t c = 0; c < wires_.curves(); ++c) {
-    arc.clear(), order.clear(), pins.clear(), shift.clear();
-    double length = 0.0;
-    bool moves = false;
-    for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
-      if (b == wires_.start[c] && !order.empty()) break;
-      order.push_reserved(b);
-      arc.push_reserved(length);
-      pins.push_reserved(pinned[b]);
-      shift.push_reserved(displacement[b]);
-      moves = moves || displacement[b] != Vec3{};
-      length += bead_[b].to_next;
-    }
-    if (!moves) continue;
-    bend_curve({arc.span(), length, wires_.closed[c] != 0, pins.span(), shift.span()});
-    for (size_t k = 0; k < order.size(); ++k) displacement[order[k]] = shift[k];
-  }
-  return {};
-}
-
-static Vec3 normal_between(const Vec3& a, const Vec3& b, double part) {
-  const double sum = dot(a, a) * dot(b, b);
-  return sum > 0.0 ? unit((1.0 - part) * a + part * b) : Vec3{};
-}
-
-/* New nodes next to each other on a curve, as where many curves meet in about one point. */
-void Snapper::unite_close_nodes() {
-  for (uint32_t c = 0; c < wires_.curves(); ++c) {
-    const uint32_t first = wires_.start[c];
-    uint32_t last = k_none, b = first;
-    double away = 0.0;
-    do {
-      if (bead_[b].ring != b) {
-        const bool near = last != k_none && away <= k_one_node * tolerance_;
-        if (near && (touched_[sets_.find(last)] || touched_[sets_.find(b)])) unite_points(last, b);
-        last = b;
-        away = 0.0;
-      }
-      away += bead_[b].to_next;
-      b = bead_[b].next;
-    } while (b != k_none && b != first);
-  }
-}
-
-/* The beads of a curve without those on a short way from a new node back to itself. */
-void Snapper::list_beads(uint32_t c, Array<uint32_t>* order, Array<double>* arc) {
-  order->clear(), arc->clear();
-  double length = 0.0;
-  const auto take_back = [&](uint32_t root, double from) {
-    for (size_t k = order->size(); k-- > 0 && from - (*arc)[k] <= 2.0 * tolerance_;) {
-      if (sets_.find((*order)[k]) != root) continue;
-      order->shrink(k + 1), arc->shrink(k + 1);
-      return true;
-    }
-    return false;
-  };
-  for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
-    if (b == wires_.start[c] && !order->empty()) break;
-    if (!touched_[sets_.find(b)] || !take_back(sets_.find(b), length)) {
-      order->push_reserved(b), arc->push_reserved(length);
-    }
-    length += bead_[b].to_next;
-  }
-  const uint32_t first = (*order)[0];
-  if (wires_.closed[c] && touched_[sets_.find(first)] && order->size() > 1) {
-    if (take_back(sets_.find(first), length) && order->size() > 1) order->pop();
-  }
-  if (order->size() >= (wires_.closed[c] ? 3 : 2)) return;
-  order->clear();  /* nothing would be left */
-  for (uint32_t b = wires_.start[c]; b != k_none; b = bead_[b].next) {
-    if (b == wires_.start[c] && !order->empty()) break;
-    order->push_reserved(b);
-  }
-}
-
-/* All points that were united come to their place; samples between them follow. */
-Status Snapper::write(Wires* out) {
-  Array<Vec3> displacement(context()), target(context());
-  Array<uint8_t> pinned(context());
-  Array<uint32_t> seen(context()), name(context()), order(context());
-  Array<double> arc(context());
-  const uint32_t n = static_cast<uint32_t>(bead_.size());
-  TRY(displacement.assign(n, Vec3{}));
-  TRY(target.resize(n));
-  TRY(pinned.assign(n, 0));
-  TRY(name.assign(n, k_none));
-  TRY(order.reserve(n));
-  TRY(arc.reserve(n));
-  TRY(seen.assign(wires_.points + size_t{n}, k_none));
-  for (uint32_t b = 0; b < n; ++b) {
-    const uint32_t root = sets_.find(b);
-    target[b] = bead_[b].position;
-    pinned[b] = bead_[b].ring != b;
-    if (!touched_[root]) continue;
-    target[b] = root == b ? target_of(root, seen.span(), root) : target[root];
-    displacement[b] = target[b] - bead_[b].position;
-  }
-  TRY(bend(displacement.span(), pinned.span()));
-  TRY(reserve_wires(wires_.curves(), n, !wires_.right.empty(), out));
-  out->start.push_reserved(0);
-  out->points = 0;
-  for (uint32_t c = 0; c < wires_.curves(); ++c) {
-    list_beads(c, &order, &arc);
-    for (const uint32_t b : order) {
-      const Bead& bead = bead_[b];
-      const uint32_t i = bead.edge, root = sets_.find(b);
-      if (name[root] == k_none) name[root] = out->points++;
-      const bool moved = displacement[b] != Vec3{};
-      out->position.push_reserved(pinned[b] ? target[b]
-                                  : moved   ? bead.position + displacement[b]
-                                            : bead.position);
-      out->point.push_reserved(name[root]);
-      const bool given = bead.part == 0.0;
-      const uint32_t j = given ? i : wires_.next(c, i);
-      out->number.push_reserved(given ? wires_.number[i] : k_none);
-      out->origin.push_reserved(given ? wires_.origin[i] : origin_of({i, bead.part}));
-      const Span<const Vec3> normal = wires_.normal.span(), right = wires_.right.span();
-      out->normal.push_reserved(given ? normal[i]
-                                      : normal_between(normal[i], normal[j], bead.part));
-      if (right.empty()) continue;
-      out->right.push_reserved(given ? right[i] : normal_between(right[i], right[j], bead.part));
-    }
-    out->closed.push_reserved(wires_.closed[c]);
-    out->boundary.push_reserved(wires_.boundary[c]);
-    out->sharp.push_reserved(wires_.sharp[c]);
-    out->soft.push_reserved(wires_.soft[c]);
-    out->start.push_reserved(out->samples());
-  }
-  return {};
 }
 
 Status snap_wires(double tolerance, Wires* wires, SnapResult* result) {
   Context& context = wires->position.context();
   Wires joined(context);
   {
-    Snapper snapper(tolerance, *wires);
-    TRY(snapper.run(result));
-    TRY(snapper.write(&joined));
+    Beads beads(*wires);
+    TRY(Snapper(tolerance, &beads).run(result));
+    TRY(write_beads(2.0 * tolerance, &beads, &joined));
   }
   *wires = static_cast<Wires&&>(joined);
   return {};
@@ -17722,12 +17685,11 @@ struct ChainWalk {
 
 /* The unit tangent at a place; zero at ends and corners, where none is known. */
 static Vec3 tangent_at(const ChainWalk& walk, uint32_t i) {
-  constexpr double k_cos_bend = 0.8191520442889918;  /* of 35 degrees */
   const uint32_t before = walk.before(i), after = walk.after(i);
   if (before == k_none || after == k_none) return {};
   const Vec3 to = walk.point(i) - walk.point(before), from = walk.point(after) - walk.point(i);
   const double g = length(to), h = length(from);
-  if (dot(to, from) < k_cos_bend * (g * h)) return {};
+  if (dot(to, from) < k_cos_corner * (g * h)) return {};
   return unit((h / g) * to + (g / h) * from);
 }
 
@@ -17744,7 +17706,7 @@ static Vec3 speed(const Vec3& tangent, const Vec3& along, double chord, double b
 
 /* Whether the segment from place i to the next bends at all. */
 static bool cubic_of(const ChainWalk& walk, uint32_t i, Cubic* cubic) {
-  constexpr double k_least_bend = 1e-7;
+  constexpr double k_no_bend = 1e-7;
   const uint32_t k = walk.after(i), before = walk.before(i), after = walk.after(k);
   cubic->p = walk.point(i);
   cubic->q = walk.point(k);
@@ -17755,7 +17717,7 @@ static bool cubic_of(const ChainWalk& walk, uint32_t i, Cubic* cubic) {
   if (free_begin && free_end) return false;
   if (free_begin) leave = mirrored(reach, along);
   if (free_end) reach = mirrored(leave, along);
-  if (length(cross(leave, along)) + length(cross(reach, along)) < k_least_bend) return false;
+  if (length(cross(leave, along)) + length(cross(reach, along)) < k_no_bend) return false;
   const double begin = free_begin ? chord : length(cubic->p - walk.point(before));
   const double end = free_end ? chord : length(walk.point(after) - cubic->q);
   const double shorter = smaller(begin, end);
@@ -18024,7 +17986,7 @@ static Bend bend_at(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
 
 /* Polygons that people draw lie in planes, or are made of right angles; noise does neither. */
 static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place) {
-  constexpr double k_least_part = 0.02;
+  constexpr double k_planar = 0.02;
   const uint32_t first = chains.start[chain], count = chains.start[chain + 1] - first;
   const uint32_t i = place - first;
   if (chains.closed[chain] == 0 && (i == 0 || i + 2 >= count)) return true;
@@ -18034,7 +17996,7 @@ static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
   const Vec3 across = cross(point(i) - point(i + count - 1), point(i + 1) - point(i));
   const Vec3 next = point(i + 2) - point(i + 1);
   const double part = std::fabs(dot(across, next)) / (length(across) * length(next));
-  return !(part > k_least_part && part < 1.0 - k_least_part);
+  return !(part > k_planar && part < 1.0 - k_planar);
 }
 
 /* Of the noise, as the quarter of the samples that moved least show it: where curves are polygons */
@@ -22293,51 +22255,6 @@ struct InlayWork {
 
 }  /* namespace */
 
-/* Of the segment a b, as the weights of its ends. */
-static void nearest_on_side(const Vec3& p, const Vec3& a, const Vec3& b, double* at_a,
-                            double* at_b) {
-  const Vec3 way = b - a;
-  const double square = dot(way, way), t = square > 0.0 ? dot(p - a, way) / square : 0.0;
-  *at_b = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
-  *at_a = 1.0 - *at_b;
-}
-
-Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 across = cross(b - a, c - a);
-  const double square = dot(across, across);
-  const Vec3 inside = {dot(cross(b - p, c - p), across), dot(cross(c - p, a - p), across),
-                       dot(cross(a - p, b - p), across)};
-  if (square > 0.0 && inside.x >= 0.0 && inside.y >= 0.0 && inside.z >= 0.0) {
-    return (1.0 / square) * inside;
-  }
-  Vec3 best[3];
-  nearest_on_side(p, a, b, &best[0].x, &best[0].y);
-  nearest_on_side(p, b, c, &best[1].y, &best[1].z);
-  nearest_on_side(p, c, a, &best[2].z, &best[2].x);
-  Vec3 nearest;
-  double least = DBL_MAX;
-  for (const Vec3& w : best) {
-    const Vec3 gap = w.x * a + w.y * b + w.z * c - p;
-    if (!(dot(gap, gap) < least)) continue;
-    least = dot(gap, gap);
-    nearest = w;
-  }
-  return nearest;
-}
-
-/* Whether a place of a triangle lies on the border of the mesh, to which what is beside it */
-/* projects. */
-static bool is_beside(const uint32_t* triangle, const Vec3& w, uint32_t rim) {
-  const double weight[3] = {w.x, w.y, w.z};
-  int held = 0, all = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (weight[k] == 0.0) continue;
-    ++all;
-    held += triangle[k] < rim;
-  }
-  return held == all && all < 3;
-}
-
 /* The nearest place in the triangles round the nearest vertex. */
 static Status find_feet(Span<const Vec3> position, Span<const uint32_t> triangle, InlayWork* work) {
   Context& context = work->flat.context();
@@ -22364,7 +22281,7 @@ static Status find_feet(Span<const Vec3> position, Span<const uint32_t> triangle
       if (!(dot(gap, gap) < least)) continue;
       least = dot(gap, gap);
       work->foot[i] = q;
-      beside = is_beside(t, w, work->rim);
+      beside = is_on_border(w, t, work->rim);
       flat = w.x * work->flat[t[0]] + w.y * work->flat[t[1]] + w.z * work->flat[t[2]];
     }
     if (beside) {
@@ -22392,9 +22309,8 @@ static bool in_the_way(const InlayWork& work, Span<const Vec3> position, const V
   for (size_t e = 0; e < work.inlay.edge.size(); e += 2) {
     const Vec3& a = drawn_at(work, position, work.inlay.edge[e]);
     const Vec3& b = drawn_at(work, position, work.inlay.edge[e + 1]);
-    double at_a = 0.0, at_b = 0.0;
-    nearest_on_side(p, a, b, &at_a, &at_b);
-    const Vec3 gap = at_a * a + at_b * b - p;
+    const Vec2 w = nearest_weights(p, a, b);
+    const Vec3 gap = w.x * a + w.y * b - p;
     if (dot(gap, gap) < room * room) return true;
   }
   return false;
@@ -22512,6 +22428,52 @@ Status inlay_curves(Context& context, Span<const uint32_t> start, const Inlay& i
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/inlay.cpp ======== */
+
+/* ======== begin src/mesh/nearest.cpp ======== */
+namespace wireskin::mesh {
+
+Vec2 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 way = b - a;
+  const double square = dot(way, way), t = square > 0.0 ? dot(p - a, way) / square : 0.0;
+  const double at_b = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+  return {1.0 - at_b, at_b};
+}
+
+Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 across = cross(b - a, c - a);
+  const double square = dot(across, across);
+  const Vec3 inside = {dot(cross(b - p, c - p), across), dot(cross(c - p, a - p), across),
+                       dot(cross(a - p, b - p), across)};
+  if (square > 0.0 && inside.x >= 0.0 && inside.y >= 0.0 && inside.z >= 0.0) {
+    return (1.0 / square) * inside;
+  }
+  const Vec2 ab = nearest_weights(p, a, b), bc = nearest_weights(p, b, c),
+             ca = nearest_weights(p, c, a);
+  const Vec3 best[3] = {{ab.x, ab.y, 0.0}, {0.0, bc.x, bc.y}, {ca.y, 0.0, ca.x}};
+  Vec3 nearest;
+  double least = DBL_MAX;
+  for (const Vec3& w : best) {
+    const Vec3 gap = w.x * a + w.y * b + w.z * c - p;
+    if (!(dot(gap, gap) < least)) continue;
+    least = dot(gap, gap);
+    nearest = w;
+  }
+  return nearest;
+}
+
+bool is_on_border(const Vec3& weights, const uint32_t* triangle, uint32_t rim) {
+  const double weight[3] = {weights.x, weights.y, weights.z};
+  int held = 0, all = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (weight[k] == 0.0) continue;
+    ++all;
+    held += triangle[k] < rim;
+  }
+  return held == all && all < 3;
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/nearest.cpp ======== */
 
 /* ======== begin src/planar/insertion_order.cpp ======== */
 namespace wireskin::planar {
@@ -23331,6 +23293,181 @@ Status triangulate_region(const Region& region, Triangulation* t, Array<uint32_t
 
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/region.cpp ======== */
+
+/* ======== begin src/network/beads.cpp ======== */
+namespace wireskin::network {
+
+Status Beads::string_samples(size_t joints) {
+  const uint32_t n = wires.samples();
+  const size_t room = n + 2 * joints;
+  if (room >= k_none) return fail(Code::too_large, "too many near places for 32-bit indices");
+  TRY(bead.reserve(room));
+  TRY(touched.assign(room, 0));
+  TRY(sets.reset(static_cast<uint32_t>(room)));
+  PointMembers members(context());
+  TRY(list_members(wires, &members));
+  for (uint32_t i = 0; i < n; ++i) {
+    Bead sample;
+    sample.position = wires.position[i];
+    sample.edge = i;
+    sample.next = wires.next(curve[i], i);
+    sample.previous = wires.previous(curve[i], i);
+    if (sample.next != k_none) sample.to_next = edge_length(i);
+    sample.given = wires.point[i];
+    bead.push_reserved(sample);
+  }
+  for (uint32_t p = 0; p < wires.points; ++p) {
+    const Span<const uint32_t> own = members[p];
+    for (size_t k = 0; k < own.size(); ++k) {
+      bead[own[k]].ring = own[(k + 1) % own.size()];
+      bead[own[k]].joined = own.size() > 1;
+      sets.unite(own[0], own[k]);
+      /* Samples of one number that the caller gave at different places meet. */
+      if (length(wires.position[own[k]] - wires.position[own[0]]) > 1e-9) touched[own[0]] = 1;
+    }
+  }
+  return {};
+}
+
+Vec3 Beads::direction_at(const WirePlace& place) const {
+  constexpr double k_step = 1.0 / 16.0;
+  const uint32_t c = curve[place.edge], before = wires.previous(c, place.edge);
+  if (wires.next(c, place.edge) == k_none) {
+    return wires.position[place.edge] - point_of_place(wires, c, {before, 1.0 - k_step});
+  }
+  const double step = place.part + k_step < 1.0 ? k_step : -k_step;
+  const Vec3 there = point_of_place(wires, c, {place.edge, place.part + step});
+  return (1.0 / step) * (there - point_at(place));
+}
+
+Vec3 Beads::normal_at(const WirePlace& place) const {
+  const uint32_t next = wires.next(curve[place.edge], place.edge);
+  const Vec3& own = wires.normal[place.edge];
+  if (place.part == 0.0 || next == k_none) return own;
+  return (1.0 - place.part) * own + place.part * wires.normal[next];
+}
+
+Origin Beads::origin_of(const WirePlace& place) const {
+  if (place.part == 0.0) return wires.origin[place.edge];
+  const EdgeOrigin& along = wires.along[place.edge];
+  return {along.curve, along.sample, along.backwards ? 1.0 - place.part : place.part};
+}
+
+BeadPlace Beads::locate(const WirePlace& place) const {
+  uint32_t b = place.edge;
+  if (place.part == 0.0) return {b, 0.0};
+  while (bead[bead[b].next].part != 0.0 && bead[bead[b].next].part <= place.part) {
+    b = bead[b].next;
+  }
+  return {b, (place.part - bead[b].part) * edge_length(place.edge)};
+}
+
+uint32_t Beads::special_near(const BeadPlace& place, double to_end, double to_node) const {
+  const auto special = [&](uint32_t b, double away) {
+    return bead[b].ring != b ? away <= to_node : is_end(b);
+  };
+  uint32_t found = k_none;
+  double away = place.behind, least = to_end;
+  for (uint32_t b = place.bead; b != k_none && away <= least;) {
+    if (special(b, away)) {
+      found = b;
+      least = away;
+      break;
+    }
+    b = bead[b].previous;
+    if (b != k_none) away += bead[b].to_next;
+    if (b == place.bead) break;
+  }
+  away = bead[place.bead].to_next - place.behind;
+  for (uint32_t b = bead[place.bead].next; b != k_none && away < least; b = bead[b].next) {
+    if (special(b, away)) return b;
+    away += bead[b].to_next;
+    if (b == place.bead) break;
+  }
+  return found;
+}
+
+WirePlace Beads::nearest_place(const WirePlace& near, const Vec3& target, double reach) const {
+  const uint32_t c = curve[near.edge];
+  WirePlace best = near;
+  double least = length(point_at(near) - target);
+  const auto consider = [&](uint32_t i) {
+    const WirePlace place = nearest_on_edge(wires, c, i, target);
+    const double distance = length(point_at(place) - target);
+    if (distance < least) {
+      least = distance;
+      best = place;
+    }
+  };
+  double away = 0.0;
+  uint32_t steps = 0;
+  for (uint32_t i = near.edge; wires.next(c, i) != k_none && away <= reach;) {
+    consider(i);
+    if (i != near.edge) away += edge_length(i);
+    i = wires.next(c, i);
+    if (++steps == wires.size(c)) return best;
+  }
+  away = 0.0;
+  for (uint32_t i = near.edge; wires.previous(c, i) != k_none && away <= reach;) {
+    i = wires.previous(c, i);
+    consider(i);
+    away += edge_length(i);
+    if (++steps >= 2 * wires.size(c)) return best;
+  }
+  return best;
+}
+
+uint32_t Beads::make_bead(const WirePlace& place) {
+  const BeadPlace at = locate(place);
+  constexpr double k_same = 1e-3;  /* of the edge: nearer than this a sample serves */
+  const Bead& before = bead[at.bead];
+  if (at.behind <= k_same * before.to_next) return at.bead;
+  if (before.to_next - at.behind <= k_same * before.to_next) return before.next;
+  Bead fresh;
+  fresh.position = point_at(place);
+  fresh.part = place.part;
+  fresh.edge = place.edge;
+  fresh.previous = at.bead;
+  fresh.next = before.next;
+  fresh.to_next = before.to_next - at.behind;
+  const uint32_t index = static_cast<uint32_t>(bead.size());
+  fresh.ring = index;
+  fresh.given = wires.points + (index - wires.samples());
+  bead[at.bead].next = index;
+  bead[at.bead].to_next = at.behind;
+  bead[fresh.next].previous = index;
+  bead.push_reserved(fresh);
+  return index;
+}
+
+void Beads::unite(uint32_t a, uint32_t b) {
+  if (!sets.unite(a, b)) return;
+  const uint32_t kept = bead[a].ring;
+  bead[a].ring = bead[b].ring;
+  bead[b].ring = kept;
+  touched[sets.find(a)] = 1;
+}
+
+void Beads::unite_close(double reach) {
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    const uint32_t first = wires.start[c];
+    uint32_t last = k_none, b = first;
+    double away = 0.0;
+    do {
+      if (bead[b].ring != b) {
+        const bool near = last != k_none && away <= reach;
+        if (near && (touched[sets.find(last)] || touched[sets.find(b)])) unite(last, b);
+        last = b;
+        away = 0.0;
+      }
+      away += bead[b].to_next;
+      b = bead[b].next;
+    } while (b != k_none && b != first);
+  }
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/beads.cpp ======== */
 
 /* ======== begin src/network/bend.cpp ======== */
 namespace wireskin::network {
@@ -24540,12 +24677,33 @@ static bool on_the_left(const PatchScratch& scratch, Array<Chord>* directed) {
   return true;
 }
 
+/* Loops that all are outer ones, beside each other, bound several discs in the plane and not the */
+/* patch. */
+static uint32_t outer_loops(const PatchScratch& scratch) {
+  const Border& border = scratch.border;
+  uint32_t count = 0;
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    const Vec2 base = scratch.flat[scratch.loop[border.start[l]]];
+    double area = 0.0;
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const Vec2 a = scratch.flat[scratch.loop[i]] - base;
+      const Vec2 b = scratch.flat[scratch.loop[next_on_border(border, l, i)]] - base;
+      area += a.x * b.y - a.y * b.x;
+    }
+    count += area > 0.0;
+  }
+  return count;
+}
+
 static Status mesh_flat(double spacing, PatchScratch* scratch) {
   Context& context = scratch->vertex.context();
   const Border& border = scratch->border;
   round_to_grid(scratch->flat.span(), &spacing);
   if (border.loops() == 1 && border.size() == scratch->vertex.size()) {
     return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
+  }
+  if (outer_loops(*scratch) > 1) {
+    return fail(Code::patch_without_plane, "the plane shows the loops beside each other");
   }
   Array<uint32_t> edges(context);
   Array<Chord> directed(context);
@@ -25210,6 +25368,9 @@ static constexpr double k_unclear_side = 0.02;
 static constexpr double k_hardly_more = 1.1;
 /* Pieces that face their plane less clearly are asked where they lie in space. */
 static constexpr double k_clearly_facing = 0.5;
+/* A loop whose normals agree with its axis less than this is the outside of what it encloses, and */
+/* belongs to the patch round it. */
+static constexpr double k_inside_out = -0.2;
 /* Rule 2 looks at this many vertices of a loop at most. */
 static constexpr uint32_t k_most_probes = 64;
 
@@ -25229,6 +25390,7 @@ struct Grouping {
   Array<uint32_t> holder;      /* of each component that bounds nothing: its patch */
   Array<uint32_t> doubtful;    /* the same where another patch may be the right one */
   Array<uint8_t> ambiguous;    /* of each patch */
+  Array<uint8_t> passed;       /* of each vertex, zero between questions */
 
   Grouping(Context& context, const CurveVertices& of, Network* net)
       : vertices(of),
@@ -25241,7 +25403,8 @@ struct Grouping {
         told(context),
         holder(context),
         doubtful(context),
-        ambiguous(context) {}
+        ambiguous(context),
+        passed(context) {}
   uint32_t root(uint32_t p) {
     while (parent[p] != p) p = parent[p] = parent[parent[p]];
     return p;
@@ -25285,6 +25448,7 @@ static Status take_components(Grouping* g) {
   TRY(g->reversed.assign(patches, 0));
   TRY(g->told.assign(patches, 0));
   TRY(g->ambiguous.assign(patches, 0));
+  TRY(g->passed.assign(g->vertices.position.size(), 0));
   TRY(g->holder.assign(g->components.members.count(), k_none));
   TRY(g->doubtful.assign(g->components.members.count(), k_none));
   for (uint32_t p = 0; p < patches; ++p) {
@@ -25364,9 +25528,10 @@ static double closing_cosine(const Border& border, double* area) {
   return dot(mean_normal(border), unit(axis));
 }
 
-static Status add_facing(const Border& border, uint32_t patch, bool reversed, double cosine,
-                         double area, Array<Facing>* facing, Array<Probe>* probes) {
-  const uint32_t n = border.size();
+static Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reversed,
+                         double cosine, double area, Array<Facing>* facing,
+                         Array<Probe>* probes) {
+  const uint32_t start = border.start[loop], n = border.start[loop + 1] - start;
   const uint32_t count = n < k_most_probes ? n : k_most_probes;
   const double least = larger(1.0 + cosine, 1e-3);
   Facing f = {patch,
@@ -25380,10 +25545,10 @@ static Status add_facing(const Border& border, uint32_t patch, bool reversed, do
   const double total = border_length(border);
   for (uint32_t k = 0; k < count; ++k) {
     const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
-    const Vec3& p = border.position[i];
-    const Vec3& next = border.position[i + 1 < n ? i + 1 : 0];
-    const Vec3& before = border.position[i > 0 ? i - 1 : n - 1];
-    const Vec3 conormal = unit(cross(border.normal[i], next - before));
+    const Vec3& p = border.position[start + i];
+    const Vec3& next = border.position[start + (i + 1 < n ? i + 1 : 0)];
+    const Vec3& before = border.position[start + (i > 0 ? i - 1 : n - 1)];
+    const Vec3 conormal = unit(cross(border.normal[start + i], next - before));
     TRY(probes->push({p, reversed ? -conormal : conormal, total / count}));
     f.centre += (1.0 / count) * p;
   }
@@ -25404,10 +25569,10 @@ static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing
     TRY(border_of_patch(network, g->vertices, p, &border));
     double area = 0.0;
     const double cosine = closing_cosine(border, &area);
-    TRY(add_facing(border, p, false, cosine, area, facing, probes));
+    TRY(add_facing(border, 0, p, false, cosine, area, facing, probes));
     if (network.ring[p] && !decided[p]) {
       /* A ring alone takes the cheaper side. */
-      TRY(add_facing(border, p, true, -cosine, area, facing, probes));
+      TRY(add_facing(border, 0, p, true, -cosine, area, facing, probes));
       Facing *one = &(*facing)[facing->size() - 2], *other = &facing->back();
       const bool unclear = std::fabs(cosine) < k_unclear_side;
       one->alone = other->alone = smaller(one->alone, other->alone);
@@ -25466,18 +25631,28 @@ static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<cons
   return {};
 }
 
-/* Whether two groups have loops of the same component: a patch that meets itself across a curve is */
-/* never what normals ask for where another loop was nearer. */
-static bool share_component(Grouping* g, Span<const Facing> facing, uint32_t a, uint32_t b) {
-  for (const Facing& x : facing) {
-    if (g->root(x.patch) != g->root(a)) continue;
-    for (const Facing& y : facing) {
-      if (g->root(y.patch) == g->root(b) && g->component[x.patch] == g->component[y.patch]) {
-        return true;
+/* Whether two groups are one, or have loops that pass the same vertex: a patch that meets itself */
+/* across a curve is never what normals ask for where another loop was nearer. */
+static bool share_vertex(Grouping* g, uint32_t a, uint32_t b) {
+  const Network& network = *g->network;
+  const uint32_t roots[2] = {g->root(a), g->root(b)};
+  bool share = roots[0] == roots[1];
+  for (int side = 0; side < 2 && !share; ++side) {
+    for (uint32_t p = 0; p < network.patches(); ++p) {
+      if (g->root(p) != roots[side]) continue;
+      for (uint32_t h : network.cycle(p)) {
+        const uint32_t v = segment_vertex(network, g->vertices, h / 2, 0);
+        const uint32_t w = segment_vertex(network, g->vertices, h / 2, g->vertices.edges[h / 2]);
+        if (side == 1) share = share || g->passed[v] || g->passed[w];
+        if (side == 0) g->passed[v] = g->passed[w] = 1;
       }
     }
   }
-  return false;
+  for (uint32_t h : network.loop.item) {
+    g->passed[segment_vertex(network, g->vertices, h / 2, 0)] = 0;
+    g->passed[segment_vertex(network, g->vertices, h / 2, g->vertices.edges[h / 2])] = 0;
+  }
+  return share;
 }
 
 namespace {
@@ -25506,8 +25681,7 @@ static bool loops_may_join(Grouping* g, const Pairing& pairing, const Band& band
   const bool both_alone = !pairing.joined[band.a] && !pairing.joined[band.b];
   const bool no_other_way = both_alone && (a.sideless || b.sideless);
   if (!(no_other_way || band.area < cost_alone(pairing, band)) || wrong_side) return false;
-  const bool same = g->component[a.patch] == g->component[b.patch];
-  return same ? both_alone : !share_component(g, pairing.facing.span(), a.patch, b.patch);
+  return !share_vertex(g, a.patch, b.patch);
 }
 
 /* Whether closing the loops alone, or one of the bands that follow, which are larger, was hardly */
@@ -25778,18 +25952,18 @@ static Status guess_patches(const Grouping& g, Span<const uint8_t> clockwise,
   return {};
 }
 
-/* The patch on which a guest lies; a ring is turned to the side found. */
-static uint32_t host_of(Grouping* g, const Guest& guest, const PatchGuesses& guesses,
-                        Span<uint8_t> turned) {
+/* The patch on which a guest lies; a ring is turned to the side found. `border` is that of the */
+/* guest's loop. */
+static uint32_t host_of(Grouping* g, const Guest& guest, const Border& border,
+                        const PatchGuesses& guesses, Span<uint8_t> turned) {
   constexpr double k_farthest_piece = 0.5, k_farthest_loop = 0.25;
   const bool loop = guest.patch != k_none;
-  const Piece piece = {g->components.members[guest.component],
+  const Piece piece = {loop ? border.vertex.span() : g->components.members[guest.component],
                        loop ? k_farthest_loop : k_farthest_piece, loop ? k_clearly_facing : 0.0,
                        guest.patch};
   const uint32_t found = nearest_patch(g->vertices, piece, guesses);
   if (found == k_none) return k_none;
   const uint32_t host = guesses.patch[found].number / 2, side = guesses.patch[found].number % 2;
-  if (loop && g->component[host] == guest.component) return k_none;
   if (g->network->ring[host] && turned[host] != side + 1) {
     if (turned[host] != 0) return k_none;  /* another guest has turned it the other way */
     turned[host] = static_cast<uint8_t>(side + 1);
@@ -25804,21 +25978,116 @@ static Status join_guests(Grouping* g, Span<const uint8_t> settled) {
   Array<Guest> guests(context);
   Array<uint8_t> clockwise(context), turned(context);
   PatchGuesses guesses(context);
-  if (g->components.members.count() < 2) return {};
+  Border border(context);
   TRY(list_guests(*g, settled, &clockwise, &guests));
   if (guests.empty()) return {};
   TRY(guess_patches(*g, clockwise.span(), guests.span(), &guesses));
   TRY(turned.assign(g->network->patches(), 0));
   for (const Guest& guest : guests) {
-    const uint32_t host = host_of(g, guest, guesses, turned.span());
+    if (guest.patch != k_none) {
+      TRY(border_of_patch(*g->network, g->vertices, guest.patch, &border));
+    }
+    const uint32_t host = host_of(g, guest, border, guesses, turned.span());
     TRY(context.checkpoint());
     if (guest.patch == k_none) {
       g->holder[guest.component] = host != k_none ? host : g->doubtful[guest.component];
       continue;
     }
-    if (host == k_none || g->root(host) == g->root(guest.patch)) continue;
+    if (host == k_none || share_vertex(g, host, guest.patch)) continue;
     g->reversed[guest.patch] = g->network->ring[guest.patch];
     g->join(host, guest.patch);
+  }
+  return {};
+}
+
+/* ---- Rule 4 ------------------------------------------------------------------------------------- */
+
+namespace {
+
+/* The patch that a place of a loop looks at, and how far along the surface that is. */
+struct Sight {
+  uint32_t loop = k_none;
+  double distance = DBL_MAX;
+};
+
+}  /* namespace */
+
+/* The nearest place whose conormal looks back: the way between two conormals that turn by a and b */
+/* from the chord is longer than it by about 2 / (1 + cosine) of either. */
+static Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
+                  Span<const uint8_t> hidden) {
+  Sight sight;
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    const Facing& f = facing[i];
+    if (hidden[i] || length(f.centre - p.position) - f.radius > sight.distance) continue;
+    for (const Probe& q : probes.part(f.first, f.count)) {
+      const Vec3 way = q.position - p.position;
+      const double chord = length(way);
+      if (!(chord < sight.distance) || chord == 0.0) continue;
+      const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
+      const double distance = chord * 4.0 / ((1.0 + out) * (1.0 + back));
+      if (!(out > 0.0 && back > 0.0 && distance < sight.distance)) continue;
+      sight = {i, distance};
+    }
+  }
+  return sight;
+}
+
+/* The loop of the group that most places of loop `own` look at, k_none where no group has most of */
+/* them; `area`: about what the surface between has. */
+static uint32_t loop_in_sight(Grouping* g, uint32_t own, Span<const Facing> facing,
+                              Span<const Probe> probes, Span<const uint8_t> hidden,
+                              Span<double> votes, double* area) {
+  constexpr double k_most = 0.6;
+  double total = 0.0;
+  *area = 0.0;
+  for (double& v : votes) v = 0.0;
+  for (const Probe& p : probes.part(facing[own].first, facing[own].count)) {
+    const Sight sight = look(p, facing, probes, hidden);
+    total += p.share;
+    if (sight.loop == k_none) continue;
+    votes[g->root(facing[sight.loop].patch)] += p.share;
+    *area += p.share * sight.distance;
+  }
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    if (votes[g->root(facing[i].patch)] > k_most * total) return i;
+  }
+  return k_none;
+}
+
+static Status join_in_sight(Grouping* g) {
+  const Network& network = *g->network;
+  Context& context = g->parent.context();
+  Array<Facing> facing(context);
+  Array<Probe> probes(context);
+  Array<double> cosine(context), votes(context);
+  Array<uint8_t> hidden(context);
+  Border border(context);
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    if (network.ring[p]) continue;
+    TRY(border_of_patch(network, g->vertices, p, &border));
+    double area = 0.0;
+    const double closing = closing_cosine(border, &area);
+    for (uint32_t l = 0; l < border.loops(); ++l) {
+      TRY(add_facing(border, l, p, false, closing, area, &facing, &probes));
+      /* Loops that are together already look for nothing more. */
+      TRY(cosine.push(border.loops() == 1 ? closing : 1.0));
+    }
+    TRY(context.checkpoint());
+  }
+  TRY(hidden.resize(facing.size()));
+  TRY(votes.assign(network.patches(), 0.0));
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    if (!(cosine[i] < k_inside_out)) continue;
+    for (uint32_t j = 0; j < facing.size(); ++j) {
+      hidden[j] = share_vertex(g, facing[i].patch, facing[j].patch);
+    }
+    double area = 0.0;
+    const uint32_t j = loop_in_sight(g, i, facing.span(), probes.span(), hidden.span(),
+                                     votes.span(), &area);
+    TRY(context.checkpoint());
+    if (j == k_none || !(area < facing[i].alone)) continue;
+    g->join(facing[i].patch, facing[j].patch);
   }
   return {};
 }
@@ -25849,6 +26118,7 @@ Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity*
   }
   for (size_t p = 0; p < ambiguous.size(); ++p) spaces.ambiguous[p] = ambiguous[p];
   TRY(join_guests(&spaces, settled.span()));
+  TRY(join_in_sight(&spaces));
   TRY(check_rings(&spaces));
   TRY(check_holders(spaces, settled.span()));
   TRY(rebuild(&spaces, &number, &ambiguous));
@@ -25942,14 +26212,7 @@ static Foot find_foot(const PatchGuesses& guesses, const PatchGuess& guess, cons
     const Vec3 w = mesh::nearest_weights(p, a, b, c);
     const double distance = length(w.x * a + w.y * b + w.z * c - p);
     if (!(distance < foot.distance)) continue;
-    const double weight[3] = {w.x, w.y, w.z};
-    bool rim = false, inner = false;
-    for (int k = 0; k < 3; ++k) {
-      if (weight[k] == 0.0) continue;
-      (v[k] < guess.rim ? rim : inner) = true;
-    }
-    const bool all = weight[0] != 0.0 && weight[1] != 0.0 && weight[2] != 0.0;
-    foot = {distance, unit(cross(b - a, c - a)), rim && !inner && !all};
+    foot = {distance, unit(cross(b - a, c - a)), mesh::is_on_border(w, v, guess.rim)};
   }
   return foot;
 }
@@ -27101,6 +27364,238 @@ Status mesh_polygon(Context& context, Span<const Vec2> border, double spacing, P
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/polygon_mesh.cpp ======== */
 
+/* ======== begin src/network/snap_order.cpp ======== */
+namespace wireskin::network {
+
+bool run_along(const Vec3& a, const Vec3& b) {
+  constexpr double k_sine = 0.17;
+  return length(cross(a, b)) < k_sine;
+}
+
+/* Whether an end of a curve clearly meets the other curve. */
+static bool ends_on(const Wires& wires, Span<const uint32_t> curve, double near,
+                    const Approach& approach) {
+  const auto near_end = [&](const WirePlace& place, const Vec3& at) {
+    const uint32_t c = curve[place.edge];
+    if (wires.closed[c]) return false;
+    const Vec3 &first = wires.position[wires.start[c]],
+               &last = wires.position[wires.start[c + 1] - 1];
+    return length(first - at) <= near || length(last - at) <= near;
+  };
+  return approach.distance <= near &&
+         (near_end(approach.a, approach.at_a) || near_end(approach.b, approach.at_b));
+}
+
+/* Whether the curves pass each other side by side there instead of crossing: they run along each */
+/* other, or the gap between them lies in the surface. */
+static bool is_beside(const Beads& beads, const Approach& approach) {
+  const Vec3 gap = unit(approach.at_b - approach.at_a);
+  const Vec3 along_a = unit(beads.direction_at(approach.a)),
+             along_b = unit(beads.direction_at(approach.b));
+  const auto square = [](double x) { return x * x; };
+  /* One goes on where the other one ends. */
+  if (square(dot(gap, along_a)) + square(dot(gap, along_b)) > 0.5) return false;
+  const Vec3 a = beads.normal_at(approach.a), b = beads.normal_at(approach.b);
+  if (a != Vec3{} && b != Vec3{}) {
+    return square(dot(gap, unit(a))) + square(dot(gap, unit(b))) < 0.5;
+  }
+  return run_along(along_a, along_b);
+}
+
+Status plan_snaps(const Beads& beads, double tolerance, bool complete,
+                  Span<const Approach> approaches, SnapPlan* plan) {
+  TRY(plan->pass.resize(approaches.size()));
+  size_t others = 0, exact = 0;
+  for (size_t k = 0; k < approaches.size(); ++k) {
+    const Approach& approach = approaches[k];
+    const bool touches = approach.distance <= k_exact * tolerance;
+    const bool beside = !touches && is_beside(beads, approach);
+    const bool ends = ends_on(beads.wires, beads.curve.span(), k_crossing * tolerance, approach);
+    plan->pass[k] = beside ? SnapPass::beside : ends ? SnapPass::settled : SnapPass::crosses;
+    others += !beside;
+    exact += touches;
+  }
+  plan->exact = !complete && 4 * exact >= 3 * others;
+  for (size_t k = 0; k < plan->pass.size() && !plan->exact; ++k) plan->pass[k] = SnapPass::crosses;
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/snap_order.cpp ======== */
+
+/* ======== begin src/network/write_beads.cpp ======== */
+namespace wireskin::network {
+
+/* Where the beads of a point meet: the mean of the places of those of its former points that rank */
+/* highest, each counted once. */
+static Vec3 target_of(const Beads& beads, uint32_t root, Span<uint32_t> seen, uint32_t mark) {
+  const auto rank = [&beads](uint32_t b) {
+    return beads.bead[b].joined ? 2 : beads.is_end(b) ? 0 : 1;
+  };
+  int highest = 0;
+  uint32_t b = root;
+  do {
+    highest = rank(b) > highest ? rank(b) : highest;
+    b = beads.bead[b].ring;
+  } while (b != root);
+  Vec3 sum, first;
+  uint32_t count = 0;
+  do {
+    if (rank(b) == highest && seen[beads.bead[b].given] != mark) {
+      seen[beads.bead[b].given] = mark;
+      if (count == 0) first = beads.bead[b].position;
+      sum += beads.bead[b].position;
+      ++count;
+    }
+    b = beads.bead[b].ring;
+  } while (b != root);
+  return count == 1 ? first : (1.0 / count) * sum;
+}
+
+static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8_t> pinned) {
+  Array<double> arc(beads.context());
+  Array<uint32_t> order(beads.context());
+  Array<uint8_t> pins(beads.context());
+  Array<Vec3> shift(beads.context());
+  TRY(arc.reserve(beads.bead.size()));
+  TRY(order.reserve(beads.bead.size()));
+  TRY(pins.reserve(beads.bead.size()));
+  TRY(shift.reserve(beads.bead.size()));
+  for (uint32_t c = 0; c < beads.wires.curves(); ++c) {
+    arc.clear(), order.clear(), pins.clear(), shift.clear();
+    double length = 0.0;
+    bool moves = false;
+    for (uint32_t b = beads.wires.start[c]; b != k_none; b = beads.bead[b].next) {
+      if (b == beads.wires.start[c] && !order.empty()) break;
+      order.push_reserved(b);
+      arc.push_reserved(length);
+      pins.push_reserved(pinned[b]);
+      shift.push_reserved(displacement[b]);
+      moves = moves || displacement[b] != Vec3{};
+      length += beads.bead[b].to_next;
+    }
+    if (!moves) continue;
+    bend_curve({arc.span(), length, beads.wires.closed[c] != 0, pins.span(), shift.span()});
+    for (size_t k = 0; k < order.size(); ++k) displacement[order[k]] = shift[k];
+  }
+  return {};
+}
+
+static Vec3 normal_between(const Vec3& a, const Vec3& b, double part) {
+  const double sum = dot(a, a) * dot(b, b);
+  return sum > 0.0 ? unit((1.0 - part) * a + part * b) : Vec3{};
+}
+
+/* The beads of a curve without those on a short way from a new node back to itself. */
+static void list_beads(uint32_t c, double detour, Beads* beads, Array<uint32_t>* order,
+                       Array<double>* arc) {
+  order->clear(), arc->clear();
+  double length = 0.0;
+  const auto take_back = [&](uint32_t root, double from) {
+    for (size_t k = order->size(); k-- > 0 && from - (*arc)[k] <= detour;) {
+      if (beads->sets.find((*order)[k]) != root) continue;
+      order->shrink(k + 1), arc->shrink(k + 1);
+      return true;
+    }
+    return false;
+  };
+  for (uint32_t b = beads->wires.start[c]; b != k_none; b = beads->bead[b].next) {
+    if (b == beads->wires.start[c] && !order->empty()) break;
+    if (!beads->touched[beads->sets.find(b)] || !take_back(beads->sets.find(b), length)) {
+      order->push_reserved(b), arc->push_reserved(length);
+    }
+    length += beads->bead[b].to_next;
+  }
+  const uint32_t first = (*order)[0];
+  if (beads->wires.closed[c] && beads->touched[beads->sets.find(first)] && order->size() > 1) {
+    if (take_back(beads->sets.find(first), length) && order->size() > 1) order->pop();
+  }
+  if (order->size() >= (beads->wires.closed[c] ? 3 : 2)) return;
+  order->clear();  /* nothing would be left */
+  for (uint32_t b = beads->wires.start[c]; b != k_none; b = beads->bead[b].next) {
+    if (b == beads->wires.start[c] && !order->empty()) break;
+    order->push_reserved(b);
+  }
+}
+
+/* Where every bead comes to lie. */
+struct BeadMoves {
+  Array<Vec3> target, displacement;
+  Array<uint8_t> pinned;  /* at a point of several beads */
+
+  explicit BeadMoves(Context& context) : target(context), displacement(context), pinned(context) {}
+};
+
+static Status find_moves(Beads* beads, BeadMoves* moves) {
+  Array<uint32_t> seen(beads->context());
+  const uint32_t n = static_cast<uint32_t>(beads->bead.size());
+  TRY(moves->displacement.assign(n, Vec3{}));
+  TRY(moves->target.resize(n));
+  TRY(moves->pinned.assign(n, 0));
+  TRY(seen.assign(beads->wires.points + size_t{n}, k_none));
+  for (uint32_t b = 0; b < n; ++b) {
+    const Bead& bead = beads->bead[b];
+    const uint32_t root = beads->sets.find(b);
+    moves->target[b] = bead.position;
+    moves->pinned[b] = bead.ring != b;
+    if (!beads->touched[root]) continue;
+    moves->target[b] = root == b ? target_of(*beads, root, seen.span(), root) : moves->target[root];
+    moves->displacement[b] = moves->target[b] - bead.position;
+  }
+  return bend_beads(*beads, moves->displacement.span(), moves->pinned.span());
+}
+
+static void write_bead(const Beads& beads, uint32_t b, const BeadMoves& moves, Wires* out) {
+  const Bead& bead = beads.bead[b];
+  const Wires& wires = beads.wires;
+  const uint32_t i = bead.edge;
+  const bool moved = moves.displacement[b] != Vec3{};
+  out->position.push_reserved(moves.pinned[b] ? moves.target[b]
+                              : moved         ? bead.position + moves.displacement[b]
+                                              : bead.position);
+  const bool given = bead.part == 0.0;
+  const uint32_t j = given ? i : wires.next(beads.curve[i], i);
+  out->number.push_reserved(given ? wires.number[i] : k_none);
+  out->origin.push_reserved(given ? wires.origin[i] : beads.origin_of({i, bead.part}));
+  const Span<const Vec3> normal = wires.normal.span(), right = wires.right.span();
+  out->normal.push_reserved(given ? normal[i] : normal_between(normal[i], normal[j], bead.part));
+  if (right.empty()) return;
+  out->right.push_reserved(given ? right[i] : normal_between(right[i], right[j], bead.part));
+}
+
+Status write_beads(double detour, Beads* beads, Wires* out) {
+  const Wires& wires = beads->wires;
+  const uint32_t n = static_cast<uint32_t>(beads->bead.size());
+  BeadMoves moves(beads->context());
+  Array<uint32_t> name(beads->context()), order(beads->context());
+  Array<double> arc(beads->context());
+  TRY(name.assign(n, k_none));
+  TRY(order.reserve(n));
+  TRY(arc.reserve(n));
+  TRY(find_moves(beads, &moves));
+  TRY(reserve_wires(wires.curves(), n, !wires.right.empty(), out));
+  out->start.push_reserved(0);
+  out->points = 0;
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    list_beads(c, detour, beads, &order, &arc);
+    for (const uint32_t b : order) {
+      const uint32_t root = beads->sets.find(b);
+      if (name[root] == k_none) name[root] = out->points++;
+      out->point.push_reserved(name[root]);
+      write_bead(*beads, b, moves, out);
+    }
+    out->closed.push_reserved(wires.closed[c]);
+    out->boundary.push_reserved(wires.boundary[c]);
+    out->sharp.push_reserved(wires.sharp[c]);
+    out->soft.push_reserved(wires.soft[c]);
+    out->start.push_reserved(out->samples());
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/write_beads.cpp ======== */
+
 /* ======== begin src/planar/cavity_side.cpp ======== */
 namespace wireskin::planar {
 
@@ -27463,13 +27958,19 @@ static LatticeFrame frame_of(Span<const LatticeObstacle> obstacles, double spaci
   return frame;
 }
 
+/* How far inside of a border of this size the sizes reach the spacing, all in spacings. */
+static double grading_distance(double size) {
+  if (size >= 1.0) return (size - 1.0) / k_size_descent;
+  const double fine = larger(k_fine_size - size, 0.0);
+  return fine / k_size_growth_fine + (1.0 - size - fine) / k_size_growth;
+}
+
 static ClearedEdge clear_edge(const LatticeFrame& frame, const LatticeObstacle& obstacle,
                               uint32_t index) {
   ClearedEdge edge = {frame.enter(obstacle.a), frame.enter(obstacle.b), 0.0, 0.0, 0.0, index,
                       obstacle.border};
   const double size = obstacle.size / frame.spacing;
-  edge.radius =
-      k_clearance + (size < 1.0 ? (1.0 - size) / k_size_growth : (size - 1.0) / k_size_descent);
+  edge.radius = k_clearance + grading_distance(size);
   edge.low = smaller(edge.a.y, edge.b.y) - edge.radius;
   edge.high = larger(edge.a.y, edge.b.y) + edge.radius;
   return edge;
@@ -27647,7 +28148,10 @@ static uint32_t pop_triangle(Refiner* r) {
 }
 
 static double drift(double size, double spacing, double distance) {
-  if (size < spacing) return smaller(size + k_size_growth * distance, spacing);
+  if (size < spacing) {
+    const double growth = size < k_fine_size * spacing ? k_size_growth_fine : k_size_growth;
+    return smaller(size + growth * distance, spacing);
+  }
   return larger(size - k_size_descent * distance, spacing);
 }
 
@@ -28383,9 +28887,16 @@ static void sort_column(size_t first, sparse::Csc* matrix) {
   }
 }
 
-/* The matrix of the least squares problem: first the rows of the split mesh, then one row a vertex */
-/* for the Laplacian of h, then one a vertex for the springs and one for the curvature foretold. */
-/* Columns are the unknowns, u and h of a vertex next to each other. */
+/* The integrated Laplacian of the displaced positions, on the split mesh, is asked to be -2 m h n, */
+/* and h to have the least square Laplacian: */
+/*   sum_r (g_r - (L u)_r - 2 m_r h_i(r))^2 / m_r + (c l)^4 h^T (Ls M^-1 Ls) h, */
+/*   g_r = -<(L v)_r + c_r, n_i(r)>, */
+/* and, where the curves foretell H on them (node_curvature.h), c l w (h - H)^2 more. There c_r is */
+/* the conormal of the patch's rim, made from the curve's positions and the given normals: that is */
+/* how these normals enter. Split rows are essential, merged ones never see them. */
+/* The matrix: first the rows of the split mesh, then one row a vertex for the Laplacian of h, then */
+/* one a vertex for the springs and one for the curvature foretold. Columns are the unknowns, u and */
+/* h of a vertex next to each other. */
 Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc& split_laplacian,
                                    Span<const double> split_area, Span<const uint32_t> origin,
                                    const sparse::Csc& laplacian, sparse::Csc* rows) const {
@@ -28430,7 +28941,10 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
   return {};
 }
 
-/* Row weights and right-hand side, g in the header. */
+/* Row weights and right-hand side, g. On open borders the rows of the Laplacian of h are left out. */
+/* Where a border's normal is not known it has no conormal: there that row stays, as the natural */
+/* condition, and the first one's place is taken by a slight pull of h towards zero, without which a */
+/* patch of no known normal at all could have any constant h. */
 static void make_targets(const DisplaceInput& input, const SplitMesh& split,
                          Span<const double> area, Span<const Vec3> normal, Span<double> weight,
                          Span<double> target) {

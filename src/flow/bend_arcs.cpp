@@ -45,7 +45,7 @@ static Vec3 tangent_at(const ChainWalk& walk, uint32_t i) {
   if (before == k_none || after == k_none) return {};
   const Vec3 to = walk.point(i) - walk.point(before), from = walk.point(after) - walk.point(i);
   const double g = length(to), h = length(from);
-  if (dot(to, from) < k_cos_bend * (g * h)) return {};
+  if (dot(to, from) < k_cos_corner * (g * h)) return {};
   return unit((h / g) * to + (g / h) * from);
 }
 
