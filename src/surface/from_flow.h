@@ -7,7 +7,7 @@
 // where normals contradict the surface, and where smoothing fails or makes triangles cross, the
 // remeshed patches are the result; curvatures are zero then where the mesh is no manifold. For
 // smoothing, vertices between two samples of a curve move off the segment to where the normals at
-// its ends bend it. Cost: that of remeshing (flow/remesh.h) and of one smoothing. Sources: B. Sadri,
+// its ends bend it. Cost: that of remeshing (flow/remesh.h) and one smoothing. Sources: B. Sadri,
 // K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014; A. Vlachos et al.,
 // "Curved PN Triangles", 2001.
 #pragma once

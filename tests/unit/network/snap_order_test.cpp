@@ -8,6 +8,8 @@ using namespace wireskin;
 using namespace wireskin::network;
 using namespace unit;
 
+namespace {
+
 struct Planned : StrungBeads {
   SnapPlan snaps{heap.context};
 
@@ -24,6 +26,8 @@ struct Planned : StrungBeads {
     return found;
   }
 };
+
+}  // namespace
 
 static const Vec3 k_up = {0, 0, 1};
 

@@ -8,11 +8,15 @@ using namespace wireskin;
 using namespace wireskin::network;
 using namespace unit;
 
+namespace {
+
 struct Written : StrungBeads {
   Wires out{heap.context};
 
   void write(double detour) { must(write_beads(detour, &beads, &out)); }
 };
+
+}  // namespace
 
 TEST_CASE("beads that were united are written as one point, the rest as it was") {
   Written net;
