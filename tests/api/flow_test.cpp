@@ -603,6 +603,55 @@ TEST_CASE("Soft curves are refused, by name") {
   CHECK(surface_of(without_normals(sphere()), options).built == WSK_ERROR_BAD_ARGUMENT);
 }
 
+TEST_CASE("Where normals would make the surface cross itself, it stays as remeshed") {
+  // Drums: two circles with a disc each and a band between them. Normals at the rims that lean far
+  // outward fold the narrow band, now and then over itself.
+  const auto drum = [](double height, double lean) {
+    Curves net;
+    for (const double side : {-1.0, 1.0}) {
+      std::vector<double> p, n;
+      for (int i = 0; i < 64; ++i) {
+        const double a = 2.0 * 3.14159265358979323846 * i / 64;
+        const double q[3] = {std::cos(a), std::sin(a), 0.5 * side * height};
+        const double m[3] = {std::sin(lean) * q[0], std::sin(lean) * q[1], std::cos(lean) * side};
+        p.insert(p.end(), q, q + 3);
+        n.insert(n.end(), m, m + 3);
+      }
+      net.add(p, true);
+      net.normals.push_back(n);
+    }
+    return net;
+  };
+  wsk_options options = plain_options();
+  options.spacing = 0.1;
+  wsk_flow_options wish = flow_defaults();
+  wish.voids = 1;
+  int used = 0, crossing = 0;
+  for (const double height : {0.2, 0.25, 0.3}) {
+    for (int i = 0; i < 10; ++i) {
+      CAPTURE(height);
+      CAPTURE(i);
+      const Result r = surface_of(drum(height, 0.7 + 0.05 * i), options, wish);
+      if (r.view.normals == WSK_FLOW_NORMALS_USED) ++used;
+      if (r.view.normals != WSK_FLOW_NORMALS_CROSSING) continue;
+      ++crossing;
+      CHECK(r.view.normals_places > 0);
+      CHECK(std::strlen(r.view.normals_sentence) > 0);
+      CHECK(r.view.smoothed == 0);
+      CHECK(r.view.crossing_count == 0);
+      // Remeshing leaves discs and band where the curves have them.
+      for (size_t k = 0; k < r.positions.size(); k += 3) {
+        const double across = std::hypot(r.positions[k], r.positions[k + 1]);
+        CHECK(across <= 1.0 + 1e-9);
+        CHECK(std::fabs(r.positions[k + 2]) <= 0.5 * height + 1e-9);
+        if (across < 0.9) CHECK(std::fabs(r.positions[k + 2]) > 0.49 * height);
+      }
+    }
+  }
+  CHECK(used > 0);
+  CHECK(crossing > 0);
+}
+
 TEST_CASE("Why normals were not used is said") {
   wsk_options options = plain_options();
   options.spacing = 0.1;
