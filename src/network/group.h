@@ -2,7 +2,7 @@
 // components of a network brought together.
 //
 // In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same
-// network with patches of several loops and with inner segments and points. Three rules, in this
+// network with patches of several loops and with inner segments and points. Four rules, in this
 // order; where none applies every cycle stays a patch.
 // 1. A component enclosed by a patch in its plane (network/enclosure.h) joins it by the cycle that
 // runs clockwise there and faces the same way. A ring of boundary curves becomes a hole; what
@@ -11,10 +11,13 @@
 // surface, lead from either loop to the other, and a band between the two has less area than
 // closing both alone would take: the spherical cap that leaves a loop along its conormals, 2 A / (1
 // + m) for a circle of area A and the mean cosine m between its normals and its axis, times (2 / (1
-// + m))^2. Nearest pairs join first, never two loops of the same component.
+// + m))^2. Nearest pairs join first, never loops that pass the same vertex.
 // 3. What is left and lies on the guessed surface of a patch (network/nearest_patch.h) joins it as
 // by rule 1: pieces that bound nothing, loops that run clockwise, rings. A piece also says which
-// side of a ring has the surface. O(n log n) and the pairs that are near each other.
+// side of a ring has the surface.
+// 4. A loop that still is alone and runs clockwise round its normals joins the patch at which most
+// of its places look: the nearest border, along their conormals, whose conormals look back. O(n log
+// n) and the pairs that are near each other.
 #pragma once
 
 #include "network/enclosure.h"
