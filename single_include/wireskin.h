@@ -3482,7 +3482,7 @@ Status mesh_patches(Context& context, const Flow& flow, const Reconstruction& re
 /* where normals contradict the surface, and where smoothing fails or makes triangles cross, the */
 /* remeshed patches are the result; curvatures are zero then where the mesh is no manifold. For */
 /* smoothing, vertices between two samples of a curve move off the segment to where the normals at */
-/* its ends bend it. Cost: that of remeshing (flow/remesh.h) and of one smoothing. Sources: B. Sadri, */
+/* its ends bend it. Cost: that of remeshing (flow/remesh.h) and one smoothing. Sources: B. Sadri, */
 /* K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014; A. Vlachos et al., */
 /* "Curved PN Triangles", 2001. */
 
@@ -6202,12 +6202,60 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
 }  /* namespace wireskin::network */
 /* ======== end src/network/enclosure.h ======== */
 
+/* ======== begin src/network/facing.h ======== */
+/* Loops as those see them that ask what they face: thinned to places with their conormals, which */
+/* point into the patch along the surface. */
+/* */
+/* In: borders of patches. Out: places, the area of a band between two loops, and which loop a place */
+/* looks at. All take time in proportion to the places they compare. */
+
+namespace wireskin::network {
+
+/* A side of a loop that may face another one: a thinned list of its vertices. */
+struct Facing {
+  uint32_t patch;
+  bool reversed;
+  uint32_t first, count;  /* of the probes */
+  bool needy;             /* hard to close alone */
+  double alone;           /* what closing it costs */
+  Vec3 centre;
+  double radius;
+  bool sideless = false;  /* a ring whose normals do not tell on which side it could be closed */
+};
+
+struct Probe {
+  Vec3 position, conormal;
+  double share;  /* of the length of the loop */
+};
+
+Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reversed, double cosine,
+                  double area, Array<Facing>* facing, Array<Probe>* probes);
+
+/* The area of a band from a's probes to the nearest ones of b, more where its conormals lead */
+/* elsewhere; negative where they do not lead there. */
+double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, double least_cosine);
+
+/* The patch that a place of a loop looks at, and how far along the surface that is. */
+struct Sight {
+  uint32_t loop = k_none;
+  double distance = DBL_MAX;
+};
+
+/* The nearest place whose conormal looks back: the way between two conormals that turn by a and b */
+/* from the chord is longer than it by about 2 / (1 + cosine) of either. Loops that are `hidden` do */
+/* not count. */
+Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
+           Span<const uint8_t> hidden);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/facing.h ======== */
+
 /* ======== begin src/network/group.h ======== */
 /* Which loops bound a patch together, and which pieces lie inside which patch: the connected */
 /* components of a network brought together. */
 /* */
 /* In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same */
-/* network with patches of several loops and with inner segments and points. Three rules, in this */
+/* network with patches of several loops and with inner segments and points. Four rules, in this */
 /* order; where none applies every cycle stays a patch. */
 /* 1. A component enclosed by a patch in its plane (network/enclosure.h) joins it by the cycle that */
 /* runs clockwise there and faces the same way. A ring of boundary curves becomes a hole; what */
@@ -6216,10 +6264,13 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
 /* surface, lead from either loop to the other, and a band between the two has less area than */
 /* closing both alone would take: the spherical cap that leaves a loop along its conormals, 2 A / (1 */
 /* + m) for a circle of area A and the mean cosine m between its normals and its axis, times (2 / (1 */
-/* + m))^2. Nearest pairs join first, never two loops of the same component. */
+/* + m))^2. Nearest pairs join first, never loops that pass the same vertex. */
 /* 3. What is left and lies on the guessed surface of a patch (network/nearest_patch.h) joins it as */
 /* by rule 1: pieces that bound nothing, loops that run clockwise, rings. A piece also says which */
-/* side of a ring has the surface. O(n log n) and the pairs that are near each other. */
+/* side of a ring has the surface. */
+/* 4. A loop that still is alone and runs clockwise round its normals joins the patch at which most */
+/* of its places look: the nearest border, along their conormals, whose conormals look back. O(n log */
+/* n) and the pairs that are near each other. */
 
 namespace wireskin::network {
 
@@ -25352,12 +25403,88 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
 }  /* namespace wireskin::network */
 /* ======== end src/network/enclosure.cpp ======== */
 
-/* ======== begin src/network/group.cpp ======== */
+/* ======== begin src/network/facing.cpp ======== */
 namespace wireskin::network {
 
 /* Loops whose normals agree with their axis better than this bound a patch by themselves, if no */
 /* other loop needs them. */
 static constexpr double k_clearly_closed = 0.5;
+/* So many vertices of a loop at most are looked at. */
+static constexpr uint32_t k_most_probes = 64;
+
+Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reversed, double cosine,
+                  double area, Array<Facing>* facing, Array<Probe>* probes) {
+  const uint32_t start = border.start[loop], n = border.start[loop + 1] - start;
+  const uint32_t count = n < k_most_probes ? n : k_most_probes;
+  const double least = larger(1.0 + cosine, 1e-3);
+  Facing f = {patch,
+              reversed,
+              static_cast<uint32_t>(probes->size()),
+              count,
+              cosine < k_clearly_closed,
+              8.0 * area / (least * least * least),
+              Vec3{},
+              0.0};
+  const double total = border_length(border);
+  for (uint32_t k = 0; k < count; ++k) {
+    const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
+    const Vec3& p = border.position[start + i];
+    const Vec3& next = border.position[start + (i + 1 < n ? i + 1 : 0)];
+    const Vec3& before = border.position[start + (i > 0 ? i - 1 : n - 1)];
+    const Vec3 conormal = unit(cross(border.normal[start + i], next - before));
+    TRY(probes->push({p, reversed ? -conormal : conormal, total / count}));
+    f.centre += (1.0 / count) * p;
+  }
+  for (uint32_t k = 0; k < count; ++k) {
+    f.radius = larger(f.radius, length((*probes)[f.first + k].position - f.centre));
+  }
+  return facing->push(f);
+}
+
+double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, double least_cosine) {
+  double area = 0.0, cosine = 0.0;
+  for (const Probe& p : probes.part(a.first, a.count)) {
+    Vec3 nearest;
+    double least = DBL_MAX;
+    for (const Probe& q : probes.part(b.first, b.count)) {
+      const Vec3 way = q.position - p.position;
+      if (dot(way, way) < least) {
+        least = dot(way, way);
+        nearest = way;
+      }
+    }
+    if (least == 0.0) return -1.0;  /* loops that touch */
+    area += 0.5 * p.share * std::sqrt(least);
+    cosine += dot(p.conormal, unit(nearest)) / static_cast<double>(a.count);
+  }
+  return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
+}
+
+Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
+           Span<const uint8_t> hidden) {
+  Sight sight;
+  for (uint32_t i = 0; i < facing.size(); ++i) {
+    const Facing& f = facing[i];
+    if (hidden[i] || length(f.centre - p.position) - f.radius > sight.distance) continue;
+    for (const Probe& q : probes.part(f.first, f.count)) {
+      const Vec3 way = q.position - p.position;
+      const double chord = length(way);
+      if (!(chord < sight.distance) || chord == 0.0) continue;
+      const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
+      const double distance = chord * 4.0 / ((1.0 + out) * (1.0 + back));
+      if (!(out > 0.0 && back > 0.0 && distance < sight.distance)) continue;
+      sight = {i, distance};
+    }
+  }
+  return sight;
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/facing.cpp ======== */
+
+/* ======== begin src/network/group.cpp ======== */
+namespace wireskin::network {
+
 /* Conormals must lead to the other loop with at least this cosine in the mean. */
 static constexpr double k_least_facing_cosine = 0.2;
 /* And with this one where both loops are of one component, neither of them being closed alone. */
@@ -25371,9 +25498,6 @@ static constexpr double k_clearly_facing = 0.5;
 /* A loop whose normals agree with its axis less than this is the outside of what it encloses, and */
 /* belongs to the patch round it. */
 static constexpr double k_inside_out = -0.2;
-/* Rule 2 looks at this many vertices of a loop at most. */
-static constexpr uint32_t k_most_probes = 64;
-
 namespace {
 
 /* What is being decided of each patch: `parent` as in union-find, reversed where the other side of */
@@ -25413,23 +25537,6 @@ struct Grouping {
     const uint32_t x = root(a), y = root(b);
     (x < y ? parent[y] : parent[x]) = x < y ? x : y;
   }
-};
-
-/* A side of a loop that may face another one: a thinned list of its vertices. */
-struct Facing {
-  uint32_t patch;
-  bool reversed;
-  uint32_t first, count;  /* of the probes */
-  bool needy;             /* hard to close alone */
-  double alone;           /* what closing it costs */
-  Vec3 centre;
-  double radius;
-  bool sideless = false;  /* a ring whose normals do not tell on which side it could be closed */
-};
-
-struct Probe {
-  Vec3 position, conormal;
-  double share;  /* of the length of the loop */
 };
 
 struct Band {
@@ -25528,36 +25635,6 @@ static double closing_cosine(const Border& border, double* area) {
   return dot(mean_normal(border), unit(axis));
 }
 
-static Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reversed,
-                         double cosine, double area, Array<Facing>* facing,
-                         Array<Probe>* probes) {
-  const uint32_t start = border.start[loop], n = border.start[loop + 1] - start;
-  const uint32_t count = n < k_most_probes ? n : k_most_probes;
-  const double least = larger(1.0 + cosine, 1e-3);
-  Facing f = {patch,
-              reversed,
-              static_cast<uint32_t>(probes->size()),
-              count,
-              cosine < k_clearly_closed,
-              8.0 * area / (least * least * least),
-              Vec3{},
-              0.0};
-  const double total = border_length(border);
-  for (uint32_t k = 0; k < count; ++k) {
-    const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
-    const Vec3& p = border.position[start + i];
-    const Vec3& next = border.position[start + (i + 1 < n ? i + 1 : 0)];
-    const Vec3& before = border.position[start + (i > 0 ? i - 1 : n - 1)];
-    const Vec3 conormal = unit(cross(border.normal[start + i], next - before));
-    TRY(probes->push({p, reversed ? -conormal : conormal, total / count}));
-    f.centre += (1.0 / count) * p;
-  }
-  for (uint32_t k = 0; k < count; ++k) {
-    f.radius = larger(f.radius, length((*probes)[f.first + k].position - f.centre));
-  }
-  return facing->push(f);
-}
-
 static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing>* facing,
                           Array<Probe>* probes) {
   const Network& network = *g->network;
@@ -25581,28 +25658,6 @@ static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing
     TRY(border.vertex.context().checkpoint());
   }
   return {};
-}
-
-/* The area of a band from a's probes to the nearest ones of b, more where its conormals lead */
-/* elsewhere; negative where they do not lead there. */
-static double half_band(const Facing& a, const Facing& b, Span<const Probe> probes,
-                        double least_cosine) {
-  double area = 0.0, cosine = 0.0;
-  for (const Probe& p : probes.part(a.first, a.count)) {
-    Vec3 nearest;
-    double least = DBL_MAX;
-    for (const Probe& q : probes.part(b.first, b.count)) {
-      const Vec3 way = q.position - p.position;
-      if (dot(way, way) < least) {
-        least = dot(way, way);
-        nearest = way;
-      }
-    }
-    if (least == 0.0) return -1.0;  /* loops that touch */
-    area += 0.5 * p.share * std::sqrt(least);
-    cosine += dot(p.conormal, unit(nearest)) / static_cast<double>(a.count);
-  }
-  return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
 }
 
 static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<const Probe> probes,
@@ -26002,43 +26057,12 @@ static Status join_guests(Grouping* g, Span<const uint8_t> settled) {
 
 /* ---- Rule 4 ------------------------------------------------------------------------------------- */
 
-namespace {
-
-/* The patch that a place of a loop looks at, and how far along the surface that is. */
-struct Sight {
-  uint32_t loop = k_none;
-  double distance = DBL_MAX;
-};
-
-}  /* namespace */
-
-/* The nearest place whose conormal looks back: the way between two conormals that turn by a and b */
-/* from the chord is longer than it by about 2 / (1 + cosine) of either. */
-static Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
-                  Span<const uint8_t> hidden) {
-  Sight sight;
-  for (uint32_t i = 0; i < facing.size(); ++i) {
-    const Facing& f = facing[i];
-    if (hidden[i] || length(f.centre - p.position) - f.radius > sight.distance) continue;
-    for (const Probe& q : probes.part(f.first, f.count)) {
-      const Vec3 way = q.position - p.position;
-      const double chord = length(way);
-      if (!(chord < sight.distance) || chord == 0.0) continue;
-      const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
-      const double distance = chord * 4.0 / ((1.0 + out) * (1.0 + back));
-      if (!(out > 0.0 && back > 0.0 && distance < sight.distance)) continue;
-      sight = {i, distance};
-    }
-  }
-  return sight;
-}
-
 /* The loop of the group that most places of loop `own` look at, k_none where no group has most of */
 /* them; `area`: about what the surface between has. */
 static uint32_t loop_in_sight(Grouping* g, uint32_t own, Span<const Facing> facing,
                               Span<const Probe> probes, Span<const uint8_t> hidden,
                               Span<double> votes, double* area) {
-  constexpr double k_most = 0.6;
+  constexpr double k_most = 0.5;
   double total = 0.0;
   *area = 0.0;
   for (double& v : votes) v = 0.0;
@@ -26083,8 +26107,8 @@ static Status join_in_sight(Grouping* g) {
       hidden[j] = share_vertex(g, facing[i].patch, facing[j].patch);
     }
     double area = 0.0;
-    const uint32_t j = loop_in_sight(g, i, facing.span(), probes.span(), hidden.span(),
-                                     votes.span(), &area);
+    const uint32_t j =
+        loop_in_sight(g, i, facing.span(), probes.span(), hidden.span(), votes.span(), &area);
     TRY(context.checkpoint());
     if (j == k_none || !(area < facing[i].alone)) continue;
     g->join(facing[i].patch, facing[j].patch);
