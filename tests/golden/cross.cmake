@@ -18,12 +18,12 @@ function(check_target name compiler flags emulator)
   endif()
   execute_process(
     COMMAND ${compiler} -std=c++17 -O2 -ffp-contract=off -I${ROOT}/tests -I${WORK} ${flags}
-            ${golden_sources} ${implementation} -o ${WORK}/print
+            ${golden_sources} ${implementation} -o ${WORK}/print.exe
     COMMAND_ERROR_IS_FATAL ANY)
   if(program)
     list(PREPEND emulator ${${program}_path})
   endif()
-  must(${name} ${emulator} ${WORK}/print)
+  must(${name} ${emulator} ${WORK}/print.exe)  # a name that every system runs
 endfunction()
 
 set(ENV{WINEDEBUG} -all)
