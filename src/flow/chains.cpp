@@ -154,7 +154,7 @@ struct Turn {
 
 }  // namespace
 
-static constexpr double k_sharp = 0.60141159900854613;  // 2 sin(35 degrees / 2)
+static constexpr double k_sharp = 0.60141159900854613;  // between unit directions 35 degrees apart
 static constexpr uint32_t k_wide = 3;
 
 // Nothing where the chain ends before that.
