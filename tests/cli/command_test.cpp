@@ -35,6 +35,26 @@ Run run(const ScratchFolder& folder, const std::string& arguments, const std::st
   return result;
 }
 
+// The unit cube in the format .obj: its corners, and its edges as lines of two points.
+std::string cube_corners() {
+  std::string rows;
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) rows += (k == 0 ? "v " : " ") + std::to_string((i >> k) & 1);
+    rows += "\n";
+  }
+  return rows;
+}
+std::string cube_edges() {
+  std::string rows;
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (((i >> k) & 1) != 0) continue;
+      rows += "l " + std::to_string(i + 1) + " " + std::to_string((i | (1 << k)) + 1) + "\n";
+    }
+  }
+  return rows;
+}
+
 // Three great circles of the unit sphere, in the format .net: six nodes first.
 std::string sphere_net(int quarter) {
   std::vector<std::string> rows;
@@ -250,18 +270,7 @@ TEST_CASE("a missing normal is filled in, a broken joint is snapped unless that 
 
 TEST_CASE("curves without normals become a surface, and a report is written") {
   const ScratchFolder folder("command");
-  std::string cube;
-  for (int i = 0; i < 8; ++i) {
-    for (int k = 0; k < 3; ++k) cube += (k == 0 ? "v " : " ") + std::to_string((i >> k) & 1);
-    cube += "\n";
-  }
-  for (int i = 0; i < 8; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      if (((i >> k) & 1) != 0) continue;
-      cube += "l " + std::to_string(i + 1) + " " + std::to_string((i | (1 << k)) + 1) + "\n";
-    }
-  }
-  write_file(folder / "cube.obj", cube);
+  write_file(folder / "cube.obj", cube_corners() + cube_edges());
   const Run r = run(folder, "cube.obj -o s.obj --report s.json --spacing 0.25");
   CHECK(r.err == "");
   REQUIRE(r.status == 0);
@@ -406,11 +415,7 @@ TEST_CASE("an option that this network does not allow is named, not a line of th
 
 TEST_CASE("signs that contradict each other: the place, and the option that helps") {
   const ScratchFolder folder("command");
-  std::string cube;
-  for (int i = 0; i < 8; ++i) {
-    for (int k = 0; k < 3; ++k) cube += (k == 0 ? "v " : " ") + std::to_string((i >> k) & 1);
-    cube += "\n";
-  }
+  std::string cube = cube_corners();
   for (int i = 0; i < 8; ++i) {  // all to the side of +x
     const int sign = (i & 1) != 0 ? 1 : -1;
     for (int k = 0; k < 3; ++k) {
@@ -418,13 +423,7 @@ TEST_CASE("signs that contradict each other: the place, and the option that help
     }
     cube += "\n";
   }
-  for (int i = 0; i < 8; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      if (((i >> k) & 1) != 0) continue;
-      cube += "l " + std::to_string(i + 1) + " " + std::to_string((i | (1 << k)) + 1) + "\n";
-    }
-  }
-  write_file(folder / "cube.obj", cube);
+  write_file(folder / "cube.obj", cube + cube_edges());
   const Run r = run(folder, "cube.obj -o s.obj --spacing 0.2");
   CHECK(r.status == 1);
   CHECK(r.err.find("cube.obj: curve 0, sample 1: the normal points to the other side") == 0);

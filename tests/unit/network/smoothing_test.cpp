@@ -10,12 +10,11 @@
 #include <fstream>
 #include <map>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "curves/curve.h"
-#include "support/faulty_allocator.h"
+#include "support/context.h"
 
 using wireskin::Array;
 using wireskin::Code;
@@ -24,28 +23,14 @@ using wireskin::Span;
 using wireskin::Status;
 using wireskin::Vec3;
 using namespace wireskin::network;
+using unit::Heap;
+using unit::must;
+using unit::span;
+using unit::view;
 
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
-
-void must(const Status& status) {
-  if (!status.ok()) throw std::runtime_error(status.sentence);
-}
-
-struct Heap {
-  scenes::FaultyAllocator allocator;
-  wireskin::Context context{{&allocator.allocate, &allocator.release, &allocator}, 0, {}};
-};
-
-template <typename T>
-Span<T> span(std::vector<T>& v) {
-  return {v.data(), v.size()};
-}
-template <typename T>
-Span<const T> view(const std::vector<T>& v) {
-  return {v.data(), v.size()};
-}
 
 // Normal deviates that are the same with every standard library (Box and Muller).
 struct Normal {

@@ -1,17 +1,16 @@
 // Matrices for the tests of src/sparse: built by entry, or with known inverses, eigenvectors and
-// elimination orders; and a context on the counting allocator.
+// elimination orders.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <random>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "sparse/csc.h"
-#include "support/faulty_allocator.h"
+#include "support/context.h"
 
 namespace matrices {
 
@@ -20,39 +19,9 @@ using wireskin::Span;
 using wireskin::Status;
 using wireskin::sparse::Csc;
 
-inline void must(const Status& status) {
-  if (!status.ok()) throw std::runtime_error(status.sentence);
-}
-
-// A context that counts its allocations and may be told to fail one, or to cancel.
-struct Heap {
-  scenes::FaultyAllocator allocator;
-  size_t checkpoints = 0;
-  size_t cancel_at = SIZE_MAX;
-  wireskin::Context context;
-
-  Heap() : context({&allocator.allocate, &allocator.release, &allocator}, 0, callbacks(this)) {}
-
- private:
-  static wireskin::Callbacks callbacks(Heap* self) {
-    wireskin::Callbacks result;
-    result.cancel = [](void* user) {
-      Heap& heap = *static_cast<Heap*>(user);
-      return heap.checkpoints++ == heap.cancel_at ? 1 : 0;
-    };
-    result.cancel_user = self;
-    return result;
-  }
-};
-
-template <typename T>
-Span<T> span(std::vector<T>& v) {
-  return {v.data(), v.size()};
-}
-template <typename T>
-Span<const T> span(const std::vector<T>& v) {
-  return {v.data(), v.size()};
-}
+using unit::Heap;
+using unit::must;
+using unit::span;
 
 // A symmetric matrix by its lower entries.
 struct Symmetric {
