@@ -85,7 +85,8 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
                         storage.soft.span(),   storage.sharp.span(),    storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
-                             smoothing_of(options, scale), options.partial != 0};
+                             smoothing_of(options, scale), options.partial != 0,
+                             options.find_borders != 0};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  // zero would mean the default
     return fail(Code::too_large, "the spacing is too small for the network");
   }
@@ -117,10 +118,6 @@ static Status smooth_mesh(Context& context, const wsk_mesh& mesh, const wsk_opti
   report_counts(surface.counts, Scale(exponent), report);
   TRY(status);
   return make_handle(context, surface, exponent, out);
-}
-
-static Destination<wsk_surface> to_surface(wsk_surface** surface) {
-  return {surface, "there is no place for the surface", wsk_surface_free};
 }
 
 }  // namespace wireskin::api

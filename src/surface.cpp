@@ -2,6 +2,7 @@
 
 #include "base/sort.h"
 #include "network/group.h"
+#include "network/outsides.h"
 #include "network/partial.h"
 #include "network/patch_mesh.h"
 #include "surface/finish.h"
@@ -126,6 +127,27 @@ static Status renumber_guarded(Span<const uint32_t> original, uint32_t patches,
   return guarded->copy(all.span());
 }
 
+// Leaves the outside of an open surface open, whose curves no one tagged.
+static Status find_borders(const curves::Curves& fitted, Array<network::Node>* nodes,
+                           network::Network* network, network::CurveVertices* vertices,
+                           Array<Status>* faults, Counts* counts) {
+  Context& context = nodes->context();
+  Array<uint32_t> original(context);
+  TRY(network::drop_outsides(*vertices, nodes, network, faults, &original));
+  if (original.empty()) return {};
+  counts->found_borders = counts->patches - network->patches();
+  counts->patches = network->patches();
+  counts->segments = static_cast<uint32_t>(network->segment.size());
+  const uint32_t ambiguous = counts->first_ambiguous_patch;
+  for (uint32_t p = 0; p < original.size() && ambiguous != k_none; ++p) {
+    if (original[p] <= ambiguous) counts->first_ambiguous_patch = p;
+  }
+  network::CurveVertices fresh(context);
+  TRY(network::resample(fitted, nodes->span(), *network, counts->spacing, &fresh));
+  *vertices = static_cast<network::CurveVertices&&>(fresh);
+  return {};
+}
+
 Status surface_curves(Context& context, const CurveSet& set, const Settings& settings,
                       Surface* surface) {
   Counts* counts = &surface->counts;
@@ -158,6 +180,9 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   counts->ambiguous_patches = ambiguity.patches;
   counts->first_ambiguous_patch = ambiguity.first;
   counts->patches = network.patches();
+  if (settings.find_borders) {
+    TRY(find_borders(fitted, &nodes, &network, &vertices, &faults, counts));
+  }
 
   TRY(context.enter(Stage::patches));
   TRY(make_patches(fitted, settings, faults.span(), &nodes, &network, &vertices, &patches,

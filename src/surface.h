@@ -41,7 +41,8 @@ struct Settings {
   smooth::Method method = smooth::Method::fair;
   double spacing = 0.0;  // zero: a hundredth of the diagonal of the bounding box
   network::SmoothingOptions smoothing;
-  bool partial = false;  // patches that cannot be made are left out
+  bool partial = false;       // patches that cannot be made are left out
+  bool find_borders = false;  // curves round which a patch would run clockwise are boundary
 };
 
 struct Counts {
@@ -61,6 +62,7 @@ struct Counts {
   mesh::AngleStatistics dihedral;                              // across the curves
   uint32_t failed_patches = 0;
   uint32_t ambiguous_patches = 0, first_ambiguous_patch = k_none;
+  uint32_t found_borders = 0;
 };
 
 // What is known of each patch, those that could not be made included.

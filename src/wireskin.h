@@ -277,6 +277,13 @@ typedef struct wsk_options {
      without sharing a curve, each has a vertex of its own there. The call fails only where no patch
      can be made. */
   int32_t partial;
+  /* Non-zero: the outside of an open surface need not be tagged (wsk_curve.boundary). Where a patch
+     would run clockwise round its own normals beyond doubt (its vector area is more than a sixtieth
+     of its squared perimeter and lies more than 123 degrees from the mean of its normals) the
+     surface ends instead; wsk_report.found_borders counts such places. The ends of tubes and domes,
+     whose normals stand across their vector area, do not tell and must still be tagged, and so must
+     holes, which would be closed. Zero (the default): such a patch is an error. */
+  int32_t find_borders;
 } wsk_options;
 
 /* Writes the defaults into *options. `size` is sizeof(wsk_options) as the caller knows it. Does
@@ -356,6 +363,7 @@ typedef struct wsk_report {
      the other choice had less than a tenth more area. WSK_NONE where there is no first one. */
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
+  uint32_t found_borders; /* outsides that were left open because of wsk_options.find_borders */
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
@@ -845,10 +853,10 @@ typedef struct wsk_flow_view {
  * far they are, noise included.
  *
  * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
- * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial changes
- * nothing, since no patch is ever left out. `options` and `flow_options` may be null (defaults). On
- * success *flow is to be given to wsk_flow_free; it keeps the allocator of the options, not the
- * callbacks. */
+ * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial and
+ * find_borders change nothing, since no patch is ever left out. `options` and `flow_options` may be
+ * null (defaults). On success *flow is to be given to wsk_flow_free; it keeps the allocator of the
+ * options, not the callbacks. */
 WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
                                   const wsk_options* options, const wsk_flow_options* flow_options,
                                   wsk_flow** flow, wsk_report* report);

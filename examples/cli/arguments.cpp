@@ -156,6 +156,8 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.curves = true;
   } else if (words.is_flag("--partial")) {
     arguments.partial = true;
+  } else if (words.is_flag("--find-borders")) {
+    arguments.find_borders = true;
   } else if (words.is("-o")) {
     arguments.outputs.push_back(words.value());
   } else if (words.is("--spacing")) {
@@ -251,7 +253,7 @@ void check_topology(const Arguments& arguments) {
     if (flow || !has_option(arguments, option)) continue;
     wrong_usage(std::string(option) + " needs --topology flow");
   }
-  for (const char* option : {"--soft", "--partial"}) {
+  for (const char* option : {"--soft", "--partial", "--find-borders"}) {
     if (!flow || !has_option(arguments, option)) continue;
     wrong_usage(std::string(option) + " does nothing with --topology flow");
   }

@@ -37,6 +37,7 @@ struct Arguments {
   int voids = WSK_VOIDS_AUTO;
   bool open_walls = false;
   bool partial = false;
+  bool find_borders = false;
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

@@ -188,6 +188,7 @@ static wsk_options options_of(const Arguments& arguments, const BuildCallbacks& 
   options.noise = arguments.noise;
   options.soft = arguments.soft;
   options.partial = arguments.partial ? 1 : 0;
+  options.find_borders = arguments.find_borders ? 1 : 0;
   options.cancel = callbacks.cancel;
   options.cancel_user = callbacks.user;
   options.progress = callbacks.progress;

@@ -76,6 +76,9 @@ options (lengths are in the units of the input; "the diagonal" is that of its bo
   --open-walls       with flow: keep walls that end at other walls instead of at curves
   --partial          with normals: leave out patches that cannot be made, instead of failing; the
                      report lists them
+  --find-borders     with normals: the outside of an open surface need not be tagged as boundary;
+                     where a patch would run clockwise round its own normals the surface ends. The
+                     ends of tubes, and holes, must still be tagged
   --report FILE      write a report in JSON: status, counts, quality, memory, times; it is
                      written too, with the place of the fault, if the input cannot be read or no
                      surface can be built from it

@@ -89,7 +89,10 @@ static std::string remedy(const Arguments& arguments, const Network& network,
            "report lists what was joined";
   }
   if (!coarse && speaks_of(report, "tagged as boundary")) {
-    return "; in tables a column boundary tags them, in OBJ a group whose name contains boundary";
+    return std::string(
+               "; in tables a column boundary tags them, in OBJ a group whose name contains "
+               "boundary") +
+           (speaks_of(report, "clockwise") ? "; or try --find-borders" : "");
   }
   if (!coarse) return orient_hint(arguments, report);
   return "; the network spans " + short_number(reach.diagonal) + " but lies " +

@@ -304,6 +304,7 @@ std::string outcome_json(const ReportInput& input, const Outcome& outcome) {
   json.count("failed_patches", report.failed_patches);
   json.count("ambiguous_patches", report.ambiguous_patches);
   json.index("first_ambiguous_patch", report.first_ambiguous_patch);
+  json.count("found_borders", report.found_borders);
   json.member("special_patches", patches_json(input.surface));
   json.number("noise_position", report.noise_position);
   json.number("noise_normal", report.noise_normal);

@@ -37,6 +37,7 @@ std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& 
   check("--open-walls", !flow, by_normals);
   check("--soft", flow && arguments.soft > 0.0, by_flow);
   check("--partial", flow, by_flow);
+  check("--find-borders", flow, by_flow);
   check("--method", flow && !any_normals(network), "without normals surfaces stay as remeshed");
   check("--orient", !any_normals(network), "there are no normals");
   check("--orient", !network.raw_curves.empty(), "measured curves are taken as they are");
@@ -88,6 +89,7 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
   wsk_surface_view surface;
   wsk_surface_get_view(result.surface.get(), &surface, sizeof surface);
   const uint32_t failed = result.report.failed_patches;
+  const uint32_t found = result.report.found_borders;
   char time[32];
   std::snprintf(time, sizeof time, "%.2f s", seconds);
   std::string text = names_of(arguments.outputs) + ": " +
@@ -97,6 +99,7 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
   if (failed > 0) {
     text += counted(failed, "patch was", "patches were") + " left out, the report says why\n";
   }
+  if (found > 0) text += counted(found, "border was", "borders were") + " found and left open\n";
   if (result.flow != nullptr) text += flow_lines(result.flow->view, arguments.voids);
   text += spacing_line(surface, result.report);
   if (!network.ignored_columns.empty()) {

@@ -62,7 +62,7 @@ const k_report = [
   ["Spacing", "spacing"], ["Least angle", "min_angle_deg", "°"],
   ["Noise found", "noise_position"], ["Greatest distance from a sample", "constraint_distance_max"],
   ["Mean normal deviation", "normal_deviation_mean_deg", "°"], ["Mean angle across curves", "dihedral_mean_deg", "°"],
-  ["Joints snapped", "preparation.snaps"], ["Open ends", "preparation.after.dangling_ends"], ["Left out patches", "failed_patches"], ["Minimal-area patches", "minimal_area_patches"], ["Guarded patches", "guarded_patches"],
+  ["Joints snapped", "preparation.snaps"], ["Open ends", "preparation.after.dangling_ends"], ["Left out patches", "failed_patches"], ["Borders found", "found_borders"], ["Minimal-area patches", "minimal_area_patches"], ["Guarded patches", "guarded_patches"],
   ["Factorisations", "factorisations"], ["Peak memory", "peak_bytes", " bytes"], ["Time", "total_ms", " ms"],
 ];
 

@@ -17,6 +17,10 @@ struct Destination {
   void (*release)(Handle* handle);
 };
 
+inline Destination<wsk_surface> to_surface(wsk_surface** surface) {
+  return {surface, "there is no place for the surface", wsk_surface_free};
+}
+
 // `earlier`: what reading other options said. A result that failed at the very end, cancelled while
 // it was copied out, is freed.
 template <typename Handle, typename Task>

@@ -430,29 +430,20 @@ wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk
 
 wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
                             const wsk_flow_options* flow_options, wsk_surface** surface,
-                            wsk_report* out) {
+                            wsk_report* report) {
   using namespace wireskin;
-  wsk_report report;
   wsk_options checked;
   wsk_flow_options flow_checked;
-  wsk_report_init(&report, sizeof report);
-  if (out != nullptr && out->size < api::k_report_size) return WSK_ERROR_BAD_ARGUMENT;
   Status status;
   if (flow == nullptr) status = fail(Code::bad_argument, "the flow is null");
-  if (status.ok() && surface == nullptr) {
-    status = fail(Code::bad_argument, "there is no place for the surface");
-  }
   if (status.ok()) {
     status = api::read_both_options(options, flow_options, &checked, &flow_checked);
   }
-  if (!status.ok()) return api::finish(status, &report, out);
-  Context context(api::allocator_of(checked), checked.memory_cap, api::callbacks_of(checked));
-  wsk_surface* made = nullptr;
-  status = api::make_flow_surface(context, checked, flow_checked, flow, &report, &made);
-  if (!status.ok() && made != nullptr) wsk_surface_free(made);
-  api::report_costs(context, &report);
-  if (status.ok()) *surface = made;
-  return api::finish(status, &report, out);
+  return api::run_call(
+      status, status.ok() ? &checked : nullptr, api::to_surface(surface), report,
+      [&](Context& context, const wsk_options& read, wsk_report* filled, wsk_surface** made) {
+        return api::make_flow_surface(context, read, flow_checked, flow, filled, made);
+      });
 }
 
 void wsk_flow_get_view(const wsk_flow* flow, wsk_flow_view* view, size_t size) {

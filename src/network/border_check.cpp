@@ -47,21 +47,24 @@ static Status find_crossing(const Border& border, double perimeter) {
   return {};
 }
 
-Status check_border(const Border& border) {
+bool runs_clockwise(const Border& border) {
   const Vec3 area = 0.5 * vector_area(border);
-  const Vec3 normal = mean_normal(border);
   const double perimeter = border_length(border);
   // A disc of this perimeter has the area perimeter^2 / (4 pi); a fifth of that is no accident. The
   // larger part of a sphere runs clockwise, too, but its normals lean outwards.
   constexpr double k_least_cosine = -0.55;
   const double clear_area = perimeter * perimeter / 60.0;
-  if (length(area) > clear_area && dot(unit(area), normal) < k_least_cosine) {
+  return length(area) > clear_area && dot(unit(area), mean_normal(border)) < k_least_cosine;
+}
+
+Status check_border(const Border& border) {
+  if (runs_clockwise(border)) {
     return fail(
         Code::patch_without_plane,
         "the border runs clockwise round its normals: where a surface ends, its curves must be "
         "tagged as boundary");
   }
-  TRY(find_crossing(border, perimeter));
+  TRY(find_crossing(border, border_length(border)));
   // One turn is what a border that passes over itself asks for; a sound surface takes it up, though
   // not all of the normals.
   int32_t linked = 0;

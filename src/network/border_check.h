@@ -11,6 +11,9 @@
 
 namespace wireskin::network {
 
+// Beyond doubt: the vector area is large and points against the mean normal.
+bool runs_clockwise(const Border& border);
+
 // Fails with patch_folded or patch_without_plane.
 Status check_border(const Border& border);
 

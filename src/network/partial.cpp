@@ -122,7 +122,7 @@ static Status part_nodes(Array<Node>* nodes, Network* network) {
 }
 
 Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
-                    Array<uint32_t>* original) {
+                    Array<uint32_t>* original, Array<Status>* faults) {
   Context& context = nodes->context();
   Network result(context);
   Renumbering fresh(context);
@@ -136,8 +136,10 @@ Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* netw
       segment.from = fresh.node[segment.from];
       segment.to = fresh.node[segment.to];
     }
+    if (faults != nullptr && !faults->empty()) (*faults)[result.segment.size()] = (*faults)[s];
     TRY(result.segment.push(segment));
   }
+  if (faults != nullptr && !faults->empty()) faults->shrink(result.segment.size());
   original->clear();
   TRY(result.patch_start.push(0));
   for (uint32_t p = 0; p < network->patches(); ++p) {

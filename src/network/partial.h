@@ -10,8 +10,9 @@
 
 namespace wireskin::network {
 
-// `original`: of each patch that is left, its number before.
+// `original`: of each patch that is left, its number before. `faults`, if given: of each segment,
+// cut down with the segments; may be empty.
 Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
-                    Array<uint32_t>* original);
+                    Array<uint32_t>* original, Array<Status>* faults = nullptr);
 
 }  // namespace wireskin::network

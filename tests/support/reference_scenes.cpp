@@ -192,6 +192,15 @@ static Scene partial() {
   return scene;
 }
 
+// The saddle whose border no one tagged.
+static Scene untagged() {
+  Scene scene = saddle();
+  scene.name = "untagged";
+  scene.find_borders = true;
+  for (Curve& curve : scene.curves) curve.boundary = false;
+  return scene;
+}
+
 // Four meridians and four parallels of radius 2 and 1; sample k of a curve is node where k / 4 is
 // whole.
 static Scene torus() {
@@ -387,6 +396,7 @@ std::vector<Scene> all() {
           dangling(),
           two_spheres(),
           partial(),
+          untagged(),
           torus(),
           fragments(),
           segments(),

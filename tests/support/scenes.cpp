@@ -153,6 +153,7 @@ wsk_options options_of(const Scene& scene) {
   options.noise = scene.noise;
   options.soft = scene.soft;
   options.partial = scene.partial;
+  options.find_borders = scene.find_borders;
   return options;
 }
 

@@ -47,6 +47,7 @@ struct Scene {
   double noise = 0.0;
   double soft = 0.0;
   bool partial = false;
+  bool find_borders = false;
   bool orient = false;
   int32_t voids = WSK_VOIDS_AUTO;
   bool raw = false;
