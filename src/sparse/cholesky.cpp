@@ -98,17 +98,22 @@ uint32_t Cholesky::slots() const {
   return context_->is_parallel() && fronts_.work > k_worth_dividing ? Fronts::k_batch : 1;
 }
 
+// The scratch memory would be most of what a small system needs, and no panel of it is tall enough.
+size_t Cholesky::scratch_size() const {
+  const bool needed = slots() > 1 || needs_scratch(round_up_rows(tallest_), k_block_depth);
+  return needed ? slots() * k_update_scratch : 0;
+}
+
 size_t Cholesky::factor_bytes() const {
   if (!analysed_) return 0;
-  const size_t numbers =
-      supernodes_.panel[supernodes_.count] + fronts_.workspace + slots() * k_update_scratch;
+  const size_t numbers = supernodes_.panel[supernodes_.count] + fronts_.workspace + scratch_size();
   return numbers * sizeof(double);
 }
 
 Status Cholesky::allocate_workspace() {
   TRY(value_.resize(supernodes_.panel[supernodes_.count]));
   TRY(workspace_.resize(fronts_.workspace));
-  return scratch_.resize(slots() * k_update_scratch);
+  return scratch_.resize(scratch_size());
 }
 
 // Adds the update matrix of a child to the front of its parent.
