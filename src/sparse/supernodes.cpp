@@ -72,7 +72,7 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
     result->panel[s] = static_cast<uint32_t>(values);
     const uint32_t height = block.width + block.tail;
     rows += height;
-    values += uint64_t{round_up_rows(height)} * block.width + k_panel_margin;
+    values += trapezoid_size(round_up_rows(height), block.width) + k_panel_margin;
     if (rows >= k_none || values >= k_none) {
       return fail(Code::too_large, "the factor is too large for 32-bit indices");
     }
