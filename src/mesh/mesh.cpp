@@ -166,15 +166,22 @@ Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles) {
 double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
   double greatest_cosine = -1.0;
   double angle = 0.0;
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t corner = static_cast<uint32_t>(h);
-    const Vec3& p = positions[triangles[h]];
-    const Vec3 a = positions[triangles[next_half_edge(corner)]] - p;
-    const Vec3 b = positions[triangles[previous_half_edge(corner)]] - p;
-    const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
-    if (!(cosine > greatest_cosine)) continue;
-    greatest_cosine = cosine;
-    angle = angle_between(a, b);
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const Vec3 at[3] = {positions[triangles[t]], positions[triangles[t + 1]],
+                        positions[triangles[t + 2]]};
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = at[k == 2 ? 0 : k + 1] - at[k], b = at[k == 0 ? 2 : k - 1] - at[k];
+      const double product = dot(a, b), squares = dot(a, a) * dot(b, b);
+      // A cosine that is surely less needs no root.
+      const double enough = (1.0 - 1e-9) * greatest_cosine * greatest_cosine * squares;
+      if (greatest_cosine > 0.0 && squares > 1e-200 && product * std::fabs(product) < enough) {
+        continue;
+      }
+      const double cosine = product / std::sqrt(squares);
+      if (!(cosine > greatest_cosine)) continue;
+      greatest_cosine = cosine;
+      angle = angle_between(a, b);
+    }
   }
   return angle * (180.0 / k_pi);
 }

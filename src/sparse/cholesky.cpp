@@ -31,7 +31,7 @@ static Status order_by_tree(const Csc& lower, Array<uint32_t>* order, Array<uint
   Array<uint32_t> tree(context), post(context), given(context);
   TRY(given.copy(order->span()));
   TRY(parent->resize(n));
-  TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper));
+  TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper, false));
   TRY(elimination_tree(upper, &tree));
   TRY(postorder(tree.span(), &post));
   invert_order(post.span(), position->span());

@@ -7,7 +7,7 @@
 // are ascending and begin with its own columns, first[s] .. first[s + 1]; its panel of values
 // begins at panel[s], a trapezoid (dense.h) with as many rows as round_up_rows() says, and a margin
 // behind the last. A panel's values above the diagonal and in the padding mean nothing.
-// Cost: linear in the entries and the rows listed, besides sorting each list.
+// Cost: linear in the entries and the rows listed.
 //
 // Source: Cleve Ashcraft, Roger Grimes, "The Influence of Relaxed Supernode Partitions on the
 // Multifrontal Method", 1989.
