@@ -274,19 +274,34 @@ struct Lanes {
 
 }  // namespace
 
+// Three lanes at a time, those of a row being neighbours: vectors of space come in threes.
 static void gather_lanes(const uint32_t* rows, uint32_t height, const double* y, const Lanes& z) {
-  for (uint32_t l = 0; l < z.count; ++l) {
-    const double* from = y + l;
+  uint32_t l = 0;
+  for (; l + 3 <= z.count; l += 3) {
     double* to = z.value + l * z.step;
-    for (uint32_t r = 0; r < height; ++r) to[r] = from[size_t{rows[r]} * z.count];
+    for (uint32_t r = 0; r < height; ++r, ++to) {
+      const double* from = y + (size_t{rows[r]} * z.count + l);
+      to[0] = from[0], to[z.step] = from[1], to[2 * z.step] = from[2];
+    }
+  }
+  for (; l < z.count; ++l) {
+    double* to = z.value + l * z.step;
+    for (uint32_t r = 0; r < height; ++r) to[r] = y[size_t{rows[r]} * z.count + l];
   }
 }
 
 static void scatter_lanes(const uint32_t* rows, uint32_t height, const Lanes& z, double* y) {
-  for (uint32_t l = 0; l < z.count; ++l) {
+  uint32_t l = 0;
+  for (; l + 3 <= z.count; l += 3) {
     const double* from = z.value + l * z.step;
-    double* to = y + l;
-    for (uint32_t r = 0; r < height; ++r) to[size_t{rows[r]} * z.count] = from[r];
+    for (uint32_t r = 0; r < height; ++r, ++from) {
+      double* to = y + (size_t{rows[r]} * z.count + l);
+      to[0] = from[0], to[1] = from[z.step], to[2] = from[2 * z.step];
+    }
+  }
+  for (; l < z.count; ++l) {
+    const double* from = z.value + l * z.step;
+    for (uint32_t r = 0; r < height; ++r) y[size_t{rows[r]} * z.count + l] = from[r];
   }
 }
 
