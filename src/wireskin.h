@@ -412,8 +412,9 @@ typedef struct wsk_curve {
      not known; the surface then leaves the curve on that side as it likes, and a patch none of
      whose normals are known spans its border with little area. Both may be equal: then the surface
      is smooth across the curve too, but its curvature may jump there (a hemisphere on a cylinder).
-     A boundary curve may be sharp to have no normals. Zero, as memset leaves it: the curve is
-     smooth, `normals` hold on both sides and `normals_right` is not read. */
+     A boundary curve may be sharp to have no normals; a point has no sides and is never sharp. Zero,
+     as memset leaves it: the curve is smooth, `normals` hold on both sides and `normals_right` is
+     not read. */
   int32_t sharp;
   const double* normals_right;
   size_t normal_right_stride;

@@ -2,6 +2,11 @@
 
 namespace wireskin::api {
 
+// A point has no sides.
+static bool is_sharp(const wsk_curve& curve) {
+  return curve.sharp != 0 && (curve.sample_count != 1 || curve.closed != 0);
+}
+
 static Status count_samples(const wsk_curve* curves, size_t count, size_t* total, bool* sharp) {
   *total = 0;
   *sharp = false;
@@ -17,7 +22,7 @@ static Status count_samples(const wsk_curve* curves, size_t count, size_t* total
     if (curve.positions == nullptr) {
       return fail(Code::bad_argument, "the curve has no positions", place);
     }
-    *sharp = *sharp || curve.sharp != 0;
+    *sharp = *sharp || is_sharp(curve);
     if (curve.normals == nullptr && curve.sharp == 0 && curve.sample_count != 1) {
       return fail(Code::missing_normals, "the curve has no normals", place);
     }
@@ -47,7 +52,7 @@ static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* s
     storage->normal.push_reserved(normal);
     storage->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
     if (storage->sharp.empty()) continue;
-    const double* right = curve.sharp != 0 ? curve.normals_right : nullptr;
+    const double* right = is_sharp(curve) ? curve.normals_right : nullptr;
     TRY(read_side_normal(right, curve.normal_right_stride, i, place, &normal));
     storage->right.push_reserved(normal);
   }
@@ -75,7 +80,7 @@ Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage)
   if (sharp) {
     TRY(storage->sharp.resize(count));
     TRY(storage->right.reserve(total));
-    for (size_t c = 0; c < count; ++c) storage->sharp[c] = curves[c].sharp != 0;
+    for (size_t c = 0; c < count; ++c) storage->sharp[c] = is_sharp(curves[c]);
   }
   storage->start.push_reserved(0);
   for (size_t c = 0; c < count; ++c) {

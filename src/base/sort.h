@@ -106,4 +106,20 @@ void sort(Span<T> values, const Less& less) {
   }
 }
 
+// Writes different numbers to `to`, ascending. The place of each of a few is the count of those
+// less than it: nothing there that a processor could foresee wrongly.
+inline void sort_distinct(const uint32_t* values, uint32_t count, uint32_t* to) {
+  constexpr uint32_t k_few = 32;
+  if (count > k_few) {
+    std::memcpy(to, values, count * sizeof(uint32_t));
+    sort(Span<uint32_t>{to, count}, [](uint32_t a, uint32_t b) { return a < b; });
+    return;
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    uint32_t place = 0;
+    for (uint32_t k = 0; k < count; ++k) place += values[k] < values[i];
+    to[place] = values[i];
+  }
+}
+
 }  // namespace wireskin

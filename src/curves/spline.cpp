@@ -101,15 +101,6 @@ Vec3 spline_value(const Spline& spline, size_t i, double t) {
          b3 * spline.moment[i + 1];
 }
 
-Vec3 spline_derivative(const Spline& spline, size_t i, double t) {
-  const double left = spline.knot[i], right = spline.knot[i + 1];
-  const double h = right - left;
-  const double a = (right - t) / h, b = (t - left) / h;
-  return (1.0 / h) * (spline.value[i + 1] - spline.value[i]) +
-         (h * (1.0 - 3.0 * a * a) / 6.0) * spline.moment[i] +
-         (h * (3.0 * b * b - 1.0) / 6.0) * spline.moment[i + 1];
-}
-
 Status fit_spline(Span<const double> knots, Span<const Vec3> values, SplineEnd end,
                   const Vec3& tangent_first, const Vec3& tangent_last, Span<Vec3> moments,
                   SplineScratch* scratch) {

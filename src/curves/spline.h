@@ -43,6 +43,13 @@ Vec3 parabola_tangent(Span<const double> knots, Span<const Vec3> values, bool la
 
 // Value and derivative at parameter t of interval i, knot[i] <= t <= knot[i + 1].
 Vec3 spline_value(const Spline& spline, size_t i, double t);
-Vec3 spline_derivative(const Spline& spline, size_t i, double t);
+inline Vec3 spline_derivative(const Spline& spline, size_t i, double t) {
+  const double left = spline.knot[i], right = spline.knot[i + 1];
+  const double h = right - left;
+  const double a = (right - t) / h, b = (t - left) / h;
+  return (1.0 / h) * (spline.value[i + 1] - spline.value[i]) +
+         (h * (1.0 - 3.0 * a * a) / 6.0) * spline.moment[i] +
+         (h * (3.0 * b * b - 1.0) / 6.0) * spline.moment[i + 1];
+}
 
 }  // namespace wireskin::curves

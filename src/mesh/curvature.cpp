@@ -5,12 +5,17 @@ namespace wireskin::mesh {
 void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
                     Span<Vec3> normals) {
   for (Vec3& n : normals) n = Vec3{};
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    const Vec3& p = positions[triangles[h]];
-    const Vec3 a = positions[triangles[next_half_edge(h)]] - p;
-    const Vec3 b = positions[triangles[previous_half_edge(h)]] - p;
-    const double squares = dot(a, a) * dot(b, b);
-    if (squares > 0.0) normals[triangles[h]] += (1.0 / squares) * cross(a, b);
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t* v = &triangles[t];
+    // Edge k runs from corner k to the next one.
+    const Vec3 edge[3] = {positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[1]],
+                          positions[v[0]] - positions[v[2]]};
+    const double square[3] = {dot(edge[0], edge[0]), dot(edge[1], edge[1]), dot(edge[2], edge[2])};
+    for (int k = 0; k < 3; ++k) {
+      const int last = k == 0 ? 2 : k - 1;
+      const double squares = square[k] * square[last];
+      if (squares > 0.0) normals[v[k]] += (1.0 / squares) * cross(edge[k], -edge[last]);
+    }
   }
   for (Vec3& n : normals) n = unit(n);
 }
@@ -29,13 +34,19 @@ struct Mean {
 // one.
 static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> known,
                                  Span<Mean> mean, Span<double> values) {
-  for (Mean& m : mean) m = {0.0, 0};
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t a = triangles[h], b = triangles[next_half_edge(h)];
-    if (known[a] == known[b]) continue;
-    const uint32_t from = known[a] ? a : b, to = known[a] ? b : a;
-    mean[to].sum += values[from];
-    ++mean[to].count;
+  for (size_t v = 0; v < values.size(); ++v) {
+    if (!known[v]) mean[v] = {0.0, 0};
+  }
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t* v = &triangles[t];
+    if (known[v[0]] == known[v[1]] && known[v[1]] == known[v[2]]) continue;  // nearly all
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = v[k], b = v[k == 2 ? 0 : k + 1];
+      if (known[a] == known[b]) continue;
+      const uint32_t from = known[a] ? a : b, to = known[a] ? b : a;
+      mean[to].sum += values[from];
+      ++mean[to].count;
+    }
   }
   for (size_t v = 0; v < values.size(); ++v) {
     if (known[v] || mean[v].count == 0) continue;

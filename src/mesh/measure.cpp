@@ -33,15 +33,18 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
                           Span<const uint8_t> on_border, Array<double>* curvature) {
   Context& context = curvature->context();
   const size_t n = positions.size();
-  Array<TriangleShape> shapes(context);
   Array<double> area(context);
   TRY(curvature->assign(n, 2.0 * k_pi));
-  TRY(area.resize(n));
-  TRY(triangle_shapes(positions, triangles, &shapes));
-  mixed_voronoi_areas(triangles, shapes.span(), area.span());
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    // The cotangent of the angle is known: arctan2(1, cot) is the angle.
-    (*curvature)[triangles[h]] -= arc_tangent(1.0, shapes[h / 3].cotangent[h % 3]);
+  TRY(area.assign(n, 0.0));
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t* v = &triangles[t];
+    const TriangleShape shape = triangle_shape(positions[v[0]], positions[v[1]], positions[v[2]]);
+    const CornerAreas shares = mixed_voronoi_shares(shape);
+    for (int k = 0; k < 3; ++k) {
+      area[v[k]] += shares.at[k];
+      // The cotangent of the angle is known: arctan2(1, cot) is the angle.
+      (*curvature)[v[k]] -= arc_tangent(1.0, shape.cotangent[k]);
+    }
   }
   for (size_t v = 0; v < n; ++v) {
     (*curvature)[v] = !on_border[v] && area[v] > 0.0 ? (*curvature)[v] / area[v] : 0.0;

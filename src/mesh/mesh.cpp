@@ -95,28 +95,45 @@ static void find_components(Span<const uint32_t> triangles, Topology* topology) 
   }
 }
 
+namespace {
+
+// The corners of a vertex: how many there are, at how many of them the surface ends clockwise, and
+// the last of those, or one of all where there are none.
+struct Fan {
+  uint32_t first;
+  uint32_t corners;
+  uint32_t borders;
+};
+
+}  // namespace
+
+static void find_fans(Span<const uint32_t> triangles, Span<const uint32_t> twins, Span<Fan> fans) {
+  for (Fan& fan : fans) fan = {0, 0, 0};
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    Fan& fan = fans[triangles[h]];
+    const uint32_t border = twins[h] == k_none;
+    ++fan.corners;
+    fan.borders += border;
+    if (border != 0 || fan.borders == 0) fan.first = h;
+  }
+}
+
 // Walks round every vertex from one of its corners (at a border vertex: from the border) and
 // compares the number of triangles met with those it has.
-static Status check_fans(Span<const uint32_t> twins, Span<const uint32_t> start,
-                         Span<const uint32_t> corner, Span<uint8_t> on_border) {
-  for (size_t v = 0; v + 1 < start.size(); ++v) {
-    const uint32_t count = start[v + 1] - start[v];
-    if (count == 0) return fail_vertex("the vertex belongs to no triangle", v);
-    uint32_t first = corner[start[v]], borders = 0;
-    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
-      if (twins[corner[k]] != k_none) continue;  // clockwise of this corner the surface ends
-      first = corner[k];
-      ++borders;
-    }
-    uint32_t met = 0, h = first;
+static Status check_fans(Span<const uint32_t> twins, Span<const Fan> fans,
+                         Span<uint8_t> on_border) {
+  for (size_t v = 0; v < fans.size(); ++v) {
+    const Fan fan = fans[v];
+    if (fan.corners == 0) return fail_vertex("the vertex belongs to no triangle", v);
+    uint32_t met = 0, h = fan.first;
     do {
       ++met;
       h = twins[previous_half_edge(h)];
-    } while (h != k_none && h != first && met <= count);
-    if (borders > 1 || met != count) {
+    } while (h != k_none && h != fan.first && met <= fan.corners);
+    if (fan.borders > 1 || met != fan.corners) {
       return fail_vertex("the triangles round the vertex do not form one fan", v);
     }
-    on_border[v] = borders == 1;
+    on_border[v] = fan.borders == 1;
   }
   return {};
 }
@@ -140,11 +157,12 @@ static Status count_loops(Span<const uint32_t> twins, Context& context, uint32_t
 Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
                      Topology* topology) {
   Context& context = topology->on_border.context();
-  Array<uint32_t> start(context), corner(context);
-  TRY(find_corners(vertices, triangles, &start, &corner));
+  Array<Fan> fans(context);
+  TRY(fans.resize(vertices));
   TRY(topology->on_border.assign(vertices, 0));
   TRY(topology->component.resize(vertices));
-  TRY(check_fans(twins, start.span(), corner.span(), topology->on_border.span()));
+  find_fans(triangles, twins, fans.span());
+  TRY(check_fans(twins, fans.span(), topology->on_border.span()));
   find_components(triangles, topology);
   TRY(count_loops(twins, context, &topology->boundary_loops));
   for (uint32_t h = 0; h < twins.size(); ++h) topology->edges += twins[h] == k_none || h < twins[h];
@@ -166,15 +184,22 @@ Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles) {
 double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
   double greatest_cosine = -1.0;
   double angle = 0.0;
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t corner = static_cast<uint32_t>(h);
-    const Vec3& p = positions[triangles[h]];
-    const Vec3 a = positions[triangles[next_half_edge(corner)]] - p;
-    const Vec3 b = positions[triangles[previous_half_edge(corner)]] - p;
-    const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
-    if (!(cosine > greatest_cosine)) continue;
-    greatest_cosine = cosine;
-    angle = angle_between(a, b);
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const Vec3 at[3] = {positions[triangles[t]], positions[triangles[t + 1]],
+                        positions[triangles[t + 2]]};
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = at[k == 2 ? 0 : k + 1] - at[k], b = at[k == 0 ? 2 : k - 1] - at[k];
+      const double product = dot(a, b), squares = dot(a, a) * dot(b, b);
+      // A cosine that is surely less needs no root.
+      const double enough = (1.0 - 1e-9) * greatest_cosine * greatest_cosine * squares;
+      if (greatest_cosine > 0.0 && squares > 1e-200 && product * std::fabs(product) < enough) {
+        continue;
+      }
+      const double cosine = product / std::sqrt(squares);
+      if (!(cosine > greatest_cosine)) continue;
+      greatest_cosine = cosine;
+      angle = angle_between(a, b);
+    }
   }
   return angle * (180.0 / k_pi);
 }

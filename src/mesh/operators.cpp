@@ -45,42 +45,54 @@ static double mixed_voronoi_share(const TriangleShape& shape, int k) {
   return 0.25 * shape.area * ((here + next) * previous + (here + previous) * next);
 }
 
+CornerAreas mixed_voronoi_shares(const TriangleShape& shape) {
+  return {{mixed_voronoi_share(shape, 0), mixed_voronoi_share(shape, 1),
+           mixed_voronoi_share(shape, 2)}};
+}
+
 void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
                          Span<double> areas) {
   for (double& a : areas) a = 0.0;
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    areas[triangles[h]] += mixed_voronoi_share(shapes[h / 3], static_cast<int>(h % 3));
+  for (size_t t = 0; t < shapes.size(); ++t) {
+    const CornerAreas shares = mixed_voronoi_shares(shapes[t]);
+    for (size_t k = 0; k < 3; ++k) areas[triangles[3 * t + k]] += shares.at[k];
   }
 }
 
 namespace {
 
 // One column of the matrix while it is being gathered: its rows, in the order in which the
-// triangles bring them, wait in the matrix; their sums stand in a dense array.
+// triangles bring them, and their sums in a dense array.
 struct ColumnUnderWay {
   Array<uint32_t> met;  // of each row: the last column that had it
   Array<double> sum;    // of each row
+  Array<uint32_t> row;
+  uint32_t count = 0;
 
-  explicit ColumnUnderWay(Context& context) : met(context), sum(context) {}
+  explicit ColumnUnderWay(Context& context) : met(context), sum(context), row(context) {}
 };
 
 }  // namespace
 
-static void add_to_column(uint32_t v, uint32_t row, double value, ColumnUnderWay* column,
-                          sparse::Csc* matrix) {
-  if (column->met[row] != v) {
-    column->met[row] = v;
-    column->sum[row] = 0.0;
-    matrix->row.push_reserved(row);
-  }
-  column->sum[row] += value;
+// Every other call meets a new row, so no branch should ask.
+static void add_to_column(uint32_t v, uint32_t row, double value, ColumnUnderWay* column) {
+  const bool fresh = column->met[row] != v;
+  const double before[2] = {column->sum[row], 0.0};
+  column->met[row] = v;
+  column->row[column->count] = row;
+  column->count += fresh;
+  column->sum[row] = before[fresh] + value;
 }
 
-static void close_column(uint32_t v, const ColumnUnderWay& column, sparse::Csc* matrix) {
-  const size_t first = matrix->start[v];
-  const Span<uint32_t> rows = matrix->row.span().part(first, matrix->row.size() - first);
-  sort(rows, [](uint32_t a, uint32_t b) { return a < b; });
-  for (uint32_t row : rows) matrix->value.push_reserved(column.sum[row]);
+static Status close_column(const ColumnUnderWay& column, sparse::Csc* matrix) {
+  const size_t first = matrix->row.size();
+  TRY(matrix->row.resize(first + column.count));
+  TRY(matrix->value.resize(first + column.count));
+  uint32_t* const row = matrix->row.data() + first;
+  double* const value = matrix->value.data() + first;
+  sort_distinct(column.row.data(), column.count, row);
+  for (uint32_t k = 0; k < column.count; ++k) value[k] = column.sum[row[k]];
+  return {};
 }
 
 Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
@@ -91,6 +103,7 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(column.met.assign(vertices, k_none));
   TRY(column.sum.resize(vertices));
+  TRY(column.row.resize(size_t{vertices} + 1));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
   // Twice the edges and the diagonal, as long as no more than a few edges are on borders.
@@ -111,17 +124,21 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
       TRY(laplacian->row.reserve(room));
       TRY(laplacian->value.reserve(room));
     }
-    add_to_column(v, v, 0.0, &column, laplacian);
+    column.count = 0;
+    add_to_column(v, v, 0.0, &column);
+    double diagonal = 0.0;
     for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
-      const uint32_t h = corner[k], next = next_half_edge(h), previous = previous_half_edge(h);
-      const TriangleShape& shape = shapes[h / 3];
-      const double to_next = 0.5 * shape.cotangent[previous % 3];
-      const double to_previous = 0.5 * shape.cotangent[next % 3];
-      add_to_column(v, triangles[next], to_next, &column, laplacian);
-      add_to_column(v, triangles[previous], to_previous, &column, laplacian);
-      add_to_column(v, v, -to_next - to_previous, &column, laplacian);
+      const uint32_t triangle = corner[k] / 3, own = corner[k] % 3;
+      const uint32_t next = own == 2 ? 0 : own + 1, previous = own == 0 ? 2 : own - 1;
+      const TriangleShape& shape = shapes[triangle];
+      const double to_next = 0.5 * shape.cotangent[previous];
+      const double to_previous = 0.5 * shape.cotangent[next];
+      add_to_column(v, triangles[size_t{3} * triangle + next], to_next, &column);
+      add_to_column(v, triangles[size_t{3} * triangle + previous], to_previous, &column);
+      diagonal += -to_next - to_previous;
     }
-    close_column(v, column, laplacian);
+    column.sum[v] = diagonal;
+    TRY(close_column(column, laplacian));
     if (v % 16384 == 16383) TRY(context.checkpoint());
   }
   laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());

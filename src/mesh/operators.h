@@ -34,6 +34,12 @@ void barycentric_areas(Span<const uint32_t> triangles, Span<const TriangleShape>
 void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
                          Span<double> areas);
 
+// What each corner of a triangle adds to those.
+struct CornerAreas {
+  double at[3];
+};
+CornerAreas mixed_voronoi_shares(const TriangleShape& shape);
+
 // The symmetric matrix Ls of integrated Laplacians, both halves stored: (Ls f)_i is the sum over
 // the neighbours of (cot a + cot b) / 2 (f_j - f_i); negative semidefinite where the angles
 // opposite to every edge add up to less than pi.

@@ -17,20 +17,16 @@ static constexpr size_t k_crowd = 64;
 // The place of the cell (x, y) along the Hilbert curve through 2^bits x 2^bits cells.
 static uint64_t hilbert_place(uint32_t x, uint32_t y, int bits) {
   uint64_t place = 0;
-  for (uint32_t half = 1u << (bits - 1); half > 0; half >>= 1) {
-    const uint32_t right = (x & half) != 0 ? 1u : 0u;
-    const uint32_t upper = (y & half) != 0 ? 1u : 0u;
+  for (int bit = bits - 1; bit >= 0; --bit) {
+    const uint32_t right = x >> bit & 1, upper = y >> bit & 1;
     place = 4 * place + ((3 * right) ^ upper);
-    // The curve enters the lower quarters turned; turn the rest of the coordinates back.
-    if (upper == 0) {
-      if (right != 0) {
-        x = ~x;
-        y = ~y;
-      }
-      const uint32_t kept = x;
-      x = y;
-      y = kept;
-    }
+    // The curve enters the lower quarters turned; turn the rest of the coordinates back: both are
+    // reflected in the right one, then they change places. No branch, for none could be foreseen.
+    const uint32_t lower = upper - 1;  // all bits, or none
+    const uint32_t reflected = lower & (0u - right);
+    const uint32_t kept = x ^ reflected, other = y ^ reflected;
+    x = kept ^ (lower & (kept ^ other));
+    y = other ^ (lower & (kept ^ other));
   }
   return place;
 }

@@ -9,16 +9,26 @@ namespace wireskin::smooth {
 
 // Whether most of x is zero, as on meshes of which only the curves are known.
 static bool is_mostly_zero(Span<const Vec3> x) {
-  size_t zeros = 0;
-  for (const Vec3& v : x) zeros += v == Vec3{};
-  return 4 * zeros > 3 * x.size();
+  size_t others = 0;
+  for (const Vec3& v : x) {
+    others += v != Vec3{};
+    if (4 * others >= x.size()) return false;
+  }
+  return true;
 }
 
 // Row j of A x for a symmetric matrix with both halves stored: column j is row j.
 static Vec3 multiply_row(const sparse::Csc& a, uint32_t j, Span<const Vec3> x) {
-  Vec3 sum;
-  for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
-  return sum;
+  const uint32_t* const row = a.row.data();
+  const double* const value = a.value.data();
+  double sum_x = 0.0, sum_y = 0.0, sum_z = 0.0;
+  for (uint32_t p = a.start[j], end = a.start[j + 1]; p < end; ++p) {
+    const Vec3& at = x[row[p]];
+    sum_x += value[p] * at.x;
+    sum_y += value[p] * at.y;
+    sum_z += value[p] * at.z;
+  }
+  return {sum_x, sum_y, sum_z};
 }
 
 // y = A x; columns that meet zeros are spared where there are many.

@@ -31,7 +31,7 @@ static Status order_by_tree(const Csc& lower, Array<uint32_t>* order, Array<uint
   Array<uint32_t> tree(context), post(context), given(context);
   TRY(given.copy(order->span()));
   TRY(parent->resize(n));
-  TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper));
+  TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper, false));
   TRY(elimination_tree(upper, &tree));
   TRY(postorder(tree.span(), &post));
   invert_order(post.span(), position->span());
@@ -98,17 +98,22 @@ uint32_t Cholesky::slots() const {
   return context_->is_parallel() && fronts_.work > k_worth_dividing ? Fronts::k_batch : 1;
 }
 
+// The scratch memory would be most of what a small system needs, and no panel of it is tall enough.
+size_t Cholesky::scratch_size() const {
+  const bool needed = slots() > 1 || needs_scratch(round_up_rows(tallest_), k_block_depth);
+  return needed ? slots() * k_update_scratch : 0;
+}
+
 size_t Cholesky::factor_bytes() const {
   if (!analysed_) return 0;
-  const size_t numbers =
-      supernodes_.panel[supernodes_.count] + fronts_.workspace + slots() * k_update_scratch;
+  const size_t numbers = supernodes_.panel[supernodes_.count] + fronts_.workspace + scratch_size();
   return numbers * sizeof(double);
 }
 
 Status Cholesky::allocate_workspace() {
   TRY(value_.resize(supernodes_.panel[supernodes_.count]));
   TRY(workspace_.resize(fronts_.workspace));
-  return scratch_.resize(slots() * k_update_scratch);
+  return scratch_.resize(scratch_size());
 }
 
 // Adds the update matrix of a child to the front of its parent.
@@ -121,7 +126,7 @@ void Cholesky::add_child(uint32_t c, const Panel& panel) {
       const double* column = from + size_t{k} * round_up_rows(tail);
       const uint32_t to = run->to + (k - run->from);
       if (to < panel.width) {
-        kernels_.add_runs(run, end, k, column, panel.value + size_t{to} * panel.step(), 0);
+        kernels_.add_runs(run, end, k, column, panel.at(0, to), 0);
       } else {
         double* above = panel.update + size_t{to - panel.width} * round_up_rows(panel.tail());
         kernels_.add_runs(run, end, k, column, above, panel.width);
@@ -134,10 +139,10 @@ void Cholesky::add_child(uint32_t c, const Panel& panel) {
 Panel Cholesky::assemble(uint32_t s, const double* source) {
   Panel panel = {value_.data() + supernodes_.panel[s], supernodes_.height(s), supernodes_.width(s),
                  workspace_.data() + fronts_.update[s], fronts_.child[s] == k_none};
-  const size_t step = panel.step();
-  std::memset(panel.value, 0, (step * panel.width + k_panel_margin) * sizeof(double));
-  double* column = panel.value;
-  for (uint32_t j = supernodes_.first[s]; j < supernodes_.first[s + 1]; ++j, column += step) {
+  const size_t size = supernodes_.panel[s + 1] - supernodes_.panel[s];
+  std::memset(panel.value, 0, size * sizeof(double));
+  for (uint32_t j = supernodes_.first[s]; j < supernodes_.first[s + 1]; ++j) {
+    double* column = panel.at(0, j - supernodes_.first[s]);
     for (uint32_t k = lower_.start[j]; k < lower_.start[j + 1]; ++k) {
       column[lower_.index[k]] = source[lower_.source[k]];
     }
@@ -274,19 +279,34 @@ struct Lanes {
 
 }  // namespace
 
+// Three lanes at a time, those of a row being neighbours: vectors of space come in threes.
 static void gather_lanes(const uint32_t* rows, uint32_t height, const double* y, const Lanes& z) {
-  for (uint32_t l = 0; l < z.count; ++l) {
-    const double* from = y + l;
+  uint32_t l = 0;
+  for (; l + 3 <= z.count; l += 3) {
     double* to = z.value + l * z.step;
-    for (uint32_t r = 0; r < height; ++r) to[r] = from[size_t{rows[r]} * z.count];
+    for (uint32_t r = 0; r < height; ++r, ++to) {
+      const double* from = y + (size_t{rows[r]} * z.count + l);
+      to[0] = from[0], to[z.step] = from[1], to[2 * z.step] = from[2];
+    }
+  }
+  for (; l < z.count; ++l) {
+    double* to = z.value + l * z.step;
+    for (uint32_t r = 0; r < height; ++r) to[r] = y[size_t{rows[r]} * z.count + l];
   }
 }
 
 static void scatter_lanes(const uint32_t* rows, uint32_t height, const Lanes& z, double* y) {
-  for (uint32_t l = 0; l < z.count; ++l) {
+  uint32_t l = 0;
+  for (; l + 3 <= z.count; l += 3) {
     const double* from = z.value + l * z.step;
-    double* to = y + l;
-    for (uint32_t r = 0; r < height; ++r) to[size_t{rows[r]} * z.count] = from[r];
+    for (uint32_t r = 0; r < height; ++r, ++from) {
+      double* to = y + (size_t{rows[r]} * z.count + l);
+      to[0] = from[0], to[1] = from[z.step], to[2] = from[2 * z.step];
+    }
+  }
+  for (; l < z.count; ++l) {
+    const double* from = z.value + l * z.step;
+    for (uint32_t r = 0; r < height; ++r) y[size_t{rows[r]} * z.count + l] = from[r];
   }
 }
 
@@ -322,19 +342,18 @@ static Lanes lanes_at(double* at, size_t step, uint32_t lanes) {
 void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
-  const size_t step = supernodes_.column_step(s);
-  const double* panel = value_.data() + supernodes_.panel[s];
+  size_t step = supernodes_.column_step(s);
+  const double* block = value_.data() + supernodes_.panel[s];  // at its first diagonal entry
   double* y = workspace_.data();
   const Lanes z = lanes_at(y + size_t{n_} * lanes, lane_step(), lanes);
   gather_lanes(supernodes_.rows(s), height, y, z);
-  for (uint32_t j = 0; j < width; j += k_block) {
+  for (uint32_t j = 0; j < width; j += k_block, block += k_block * step, step -= k_block) {
     const uint32_t columns = width - j < k_block ? width - j : k_block;
     const uint32_t after = j + columns;
-    const double* block = panel + j * step;
-    if (after < width) fetch(block + columns * step, columns * step);
-    solve_triangle(kernels_, triangle_at(block + j, step, columns, false), j, false, z);
+    if (after < width) fetch(block + k_block * step, columns * step);
+    solve_triangle(kernels_, triangle_at(block, step, columns, false), j, false, z);
     if (after == height) break;
-    kernels_.update({round_up_rows(height - after), lanes, columns, block + after, step,
+    kernels_.update({round_up_rows(height - after), lanes, columns, block + columns, step,
                      z.value + j, z.step, 1, z.value + after, z.step, false, false},
                     scratch_.data());
   }
@@ -345,25 +364,28 @@ void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
 void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
-  const size_t step = supernodes_.column_step(s);
-  const double* panel = value_.data() + supernodes_.panel[s];
+  uint32_t j = (width - 1) / k_block * k_block + k_block;
+  size_t step = size_t{supernodes_.column_step(s)} - j;
+  size_t at = supernodes_.panel[s] + trapezoid_size(step + j, j);
   double* y = workspace_.data();
   const Lanes z = lanes_at(y + size_t{n_} * lanes, lane_step(), lanes);
   gather_lanes(supernodes_.rows(s), height, y, z);
   for (uint32_t l = 0; l < lanes; ++l) {
     for (uint32_t r = height; r < height + 4; ++r) z.value[l * z.step + r] = 0.0;
   }
-  for (uint32_t j = (width - 1) / k_block * k_block + k_block; j > 0;) {
+  while (j > 0) {
     j -= k_block;
+    step += k_block;
+    at -= k_block * step;
     const uint32_t columns = width - j < k_block ? width - j : k_block;
     const uint32_t after = j + columns;
-    const double* block = panel + j * step;
-    if (j > 0) fetch(block - k_block * step, k_block * step);
+    const double* block = value_.data() + at;  // at its first diagonal entry
+    if (j > 0) fetch(block - k_block * (step + k_block), k_block * (step + k_block));
     if (after < height) {
-      kernels_.subtract_dots({columns, lanes, round_up_rows(height - after), block + after, step,
+      kernels_.subtract_dots({columns, lanes, round_up_rows(height - after), block + columns, step,
                               z.value + after, z.step, z.value + j, z.step});
     }
-    solve_triangle(kernels_, triangle_at(block + j, step, columns, true), j, true, z);
+    solve_triangle(kernels_, triangle_at(block, step, columns, true), j, true, z);
   }
   scatter_lanes(supernodes_.rows(s), width, z, y);
 }

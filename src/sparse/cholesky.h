@@ -45,6 +45,7 @@ class Cholesky {
   struct Batch;
 
   uint32_t slots() const;
+  size_t scratch_size() const;
   Status allocate_workspace();
   Status locate_entries();
   Panel assemble(uint32_t s, const double* source);

@@ -57,12 +57,12 @@ Status transpose(const Csc& a, Csc* result) {
 }
 
 Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle triangle,
-                       Pattern* result) {
+                       Pattern* result, bool with_source) {
   Context& context = lower.start.context();
   const uint32_t n = lower.cols;
   TRY(result->start.assign(size_t{n} + 1, 0));
   TRY(result->index.resize(lower.row.size()));
-  TRY(result->source.resize(lower.row.size()));
+  if (with_source) TRY(result->source.resize(lower.row.size()));
   Array<uint32_t> next(context);
   TRY(next.resize(size_t{n} + 1));
   const bool by_smaller = triangle == Triangle::lower;
@@ -70,7 +70,8 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
       const uint32_t a = position[lower.row[k]], b = position[j];
-      ++result->start[(a < b) == by_smaller ? a : b];
+      const uint32_t smaller = a < b ? a : b, larger = a < b ? b : a;
+      ++result->start[by_smaller ? smaller : larger];
     }
   }
   starts_from_counts(result->start.span());
@@ -79,10 +80,10 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
       const uint32_t a = position[lower.row[k]], b = position[j];
-      const uint32_t column = (a < b) == by_smaller ? a : b;
-      const uint32_t to = next[column]++;
-      result->index[to] = column == a ? b : a;
-      result->source[to] = k;
+      const uint32_t smaller = a < b ? a : b, larger = a < b ? b : a;
+      const uint32_t to = next[by_smaller ? smaller : larger]++;
+      result->index[to] = by_smaller ? larger : smaller;
+      if (with_source) result->source[to] = k;
     }
   }
   return {};

@@ -51,8 +51,9 @@ inline Status checkpoint_at_column(Context& context, uint32_t j) {
 enum class Triangle { lower, upper };
 
 // One triangle of the symmetrically permuted matrix, diagonal included: column j of `lower` becomes
-// column position[j]. Of two mirrored entries the one in the wanted triangle is listed.
+// column position[j]. Of two mirrored entries the one in the wanted triangle is listed. The source
+// of each may be left out.
 Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle triangle,
-                       Pattern* result);
+                       Pattern* result, bool with_source = true);
 
 }  // namespace wireskin::sparse

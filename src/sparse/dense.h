@@ -14,6 +14,24 @@
 
 namespace wireskin::sparse {
 
+// Columns of a lower trapezoid are stored in blocks of eight: each begins with the row of its
+// block's first diagonal entry, so the distance of neighbours is eight less in every next block.
+inline constexpr uint32_t k_trapezoid_block = 8;
+
+// From an entry of the first column, whose neighbour is `step` away, to that of `column` in the
+// same row, which need not be stored.
+inline size_t trapezoid_offset(size_t step, uint32_t column) {
+  const size_t block = column / k_trapezoid_block, inside = column % k_trapezoid_block;
+  return step * column -
+         k_trapezoid_block * (block * (block - 1) / 2 * k_trapezoid_block + block * (inside + 1));
+}
+
+inline size_t trapezoid_size(size_t step, uint32_t columns) {
+  const size_t block = columns / k_trapezoid_block, inside = columns % k_trapezoid_block;
+  return step * columns -
+         k_trapezoid_block * (block * (block - 1) / 2 * k_trapezoid_block + block * inside);
+}
+
 // C -= A B^T, or C = -A B^T: entry (i, j) of C loses the sum over k < depth of
 // a[i + k * a_step] * b[j * b_out + k * b_step].
 struct Update {
@@ -29,6 +47,20 @@ struct Update {
   size_t c_step;
   bool lower;      // entries above the diagonal are not needed
   bool overwrite;  // C counts as zero
+  // A and B, or C, are columns of trapezoids, the first of them the first of its block.
+  bool from_trapezoid = false;
+  bool into_trapezoid = false;
+
+  size_t from_column(size_t step, uint32_t k) const {
+    return from_trapezoid ? trapezoid_offset(step, k) : step * k;
+  }
+  size_t into_column(uint32_t j) const {
+    return into_trapezoid ? trapezoid_offset(c_step, j) : c_step * j;
+  }
+  // The distance of the neighbours of column k or j.
+  static size_t step_at(size_t step, uint32_t k, bool trapezoid) {
+    return trapezoid ? step - k / k_trapezoid_block * k_trapezoid_block : step;
+  }
 };
 
 // c[j + l * c_step] loses the sum over k < depth of a[k + j * a_step] * b[k + l * b_step], for j <

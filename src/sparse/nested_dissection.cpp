@@ -139,11 +139,14 @@ static Status survey_patches(Dissector* d) {
     c.sum += g.position[v];
     ++c.vertices;
     uint32_t last = p;
+    const Vec3 here = g.position[v];
     for (uint32_t k = d->start[v]; k < d->start[v + 1]; ++k) {
       const uint32_t w = d->neighbour[k], q = g.patch[w];
       if (q == p) {
-        const Vec3 way = g.position[w] - g.position[v];
-        c.reach = {greater(c.reach.x, way.x), greater(c.reach.y, way.y), greater(c.reach.z, way.z)};
+        if (w > v) continue;  // neighbours meet twice
+        const Vec3 way = g.position[w] - here;
+        c.reach = {greater(c.reach.x, std::fabs(way.x)), greater(c.reach.y, std::fabs(way.y)),
+                   greater(c.reach.z, std::fabs(way.z))};
         continue;
       }
       d->mixed[v] = 1;

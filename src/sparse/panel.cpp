@@ -65,23 +65,22 @@ static void update_columns(const PanelTools& tools, const Panel& panel, uint32_t
                            uint32_t column, uint32_t columns, uint32_t first, uint32_t end,
                            double* scratch) {
   if (column == from_column) return;
-  const size_t step = panel.step();
-  const double* from = panel.value + from_column * step;
-  tools.kernels->update(
-      {end - first, columns, column - from_column, from + first, step, from + column, 1, step,
-       panel.value + column * step + first, step, first == column, false},
-      scratch);
+  const size_t step = panel.step(from_column);
+  tools.kernels->update({end - first, columns, column - from_column, panel.at(first, from_column),
+                         step, panel.at(column, from_column), 1, step, panel.at(first, column),
+                         panel.step(column), first == column, false, true, true},
+                        scratch);
 }
 
 // Factors the block's columns in the rows from the block's first on down to `end`.
 static uint32_t factor_block(const PanelTools& tools, const Panel& panel, uint32_t end,
                              ColumnBlock* block) {
-  const size_t step = panel.step();
   for (uint32_t j = 0; j < block->count; j += DiagonalBlock::k_size) {
     DiagonalBlock* d = &block->diagonal[j / DiagonalBlock::k_size];
     d->columns = columns_of_diagonal(*block, j);
     const uint32_t column = block->first + j;
-    double* at = panel.value + column * step + column;
+    const size_t step = panel.step(column);
+    double* at = panel.at(column, column);
     update_columns(tools, panel, block->first, column, d->columns, column, end, tools.scratch);
     const uint32_t bad = factor_diagonal(at, step, d);
     if (bad != k_none) return column + bad;
@@ -97,13 +96,12 @@ static uint32_t factor_block(const PanelTools& tools, const Panel& panel, uint32
 static void solve_rows_below(const PanelParts& parts, uint32_t first, uint32_t end,
                              double* scratch) {
   const ColumnBlock& block = *parts.block;
-  const size_t step = parts.panel->step();
   for (uint32_t j = 0; j < block.count; j += DiagonalBlock::k_size) {
     const DiagonalBlock& d = block.diagonal[j / DiagonalBlock::k_size];
     const uint32_t column = block.first + j;
     update_columns(*parts.tools, *parts.panel, block.first, column, d.columns, first, end, scratch);
-    parts.tools->kernels->solve_block(d, end - first, parts.panel->value + column * step + first,
-                                      static_cast<ptrdiff_t>(step));
+    parts.tools->kernels->solve_block(d, end - first, parts.panel->at(first, column),
+                                      static_cast<ptrdiff_t>(parts.panel->step(column)));
   }
 }
 
@@ -116,12 +114,12 @@ static void update_rows(const PanelParts& parts, uint32_t first, uint32_t end, d
 // The columns first .. end of the update matrix.
 static void update_tail(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch) {
   const Panel& panel = *parts.panel;
-  const size_t step = panel.step(), tail_step = round_up_rows(panel.tail());
+  const size_t step = panel.rows(), tail_step = round_up_rows(panel.tail());
   const double* rows = panel.value + panel.width + first;
   const uint32_t height = static_cast<uint32_t>(tail_step) - first;
   parts.tools->kernels->update(
       {height, end - first, panel.width, rows, step, rows, 1, step,
-       panel.update + first * tail_step + first, tail_step, true, panel.first},
+       panel.update + first * tail_step + first, tail_step, true, panel.first, true, false},
       scratch);
 }
 
@@ -135,8 +133,8 @@ static ColumnBlock block_at(const Panel& panel, uint32_t first) {
 uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
   for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
     ColumnBlock block = block_at(panel, first);
-    update_columns(tools, panel, 0, first, block.count, first, panel.step(), tools.scratch);
-    const uint32_t bad = factor_block(tools, panel, panel.step(), &block);
+    update_columns(tools, panel, 0, first, block.count, first, panel.rows(), tools.scratch);
+    const uint32_t bad = factor_block(tools, panel, panel.rows(), &block);
     if (bad != k_none) return bad;
   }
   if (panel.tail() > 0) {
@@ -182,7 +180,7 @@ static Status run_parts(Context& context, PanelParts parts, double work) {
 Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
                              uint32_t* bad_column) {
   *bad_column = k_none;
-  const uint32_t rows = panel.step();
+  const uint32_t rows = panel.rows();
   for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
     ColumnBlock block = block_at(panel, first);
     const uint32_t below = round_up_rows(first + block.count);

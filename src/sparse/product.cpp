@@ -6,11 +6,13 @@ namespace wireskin::sparse {
 
 namespace {
 
-// Column j of the product: the rows met so far and their sums, in a dense array marked by column.
+// Column j of the product: the rows met so far, `count`, and their sums, in a dense array marked by
+// column.
 struct Accumulator {
   Array<uint32_t> mark;
-  Array<uint32_t> rows;
+  Array<uint32_t> rows;  // one more than there are
   Array<double> sum;
+  uint32_t count = 0;
 
   explicit Accumulator(Context& context) : mark(context), rows(context), sum(context) {}
 };
@@ -41,7 +43,10 @@ static Status pause_for_checkpoint(Context& context, size_t* work) {
 // Weights of zero are no reason to skip an entry: the pattern must not depend on values.
 static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
                           Accumulator* gathered, size_t* work) {
-  gathered->rows.clear();
+  uint32_t* const mark = gathered->mark.data();
+  uint32_t* const rows = gathered->rows.data();
+  double* const sum = gathered->sum.data();
+  uint32_t count = 0;
   for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
     const uint32_t inner = factors.b.row[q];
     *work += factors.a.start[inner + 1] - factors.a.start[inner];
@@ -50,14 +55,16 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
       if (factors.ends_at(factors.a.row[p], column)) break;
       const uint32_t i = factors.unknown[factors.a.row[p]];
       if (i == k_none) continue;
-      if (gathered->mark[i] != j) {
-        gathered->mark[i] = j;
-        gathered->sum[i] = 0.0;
-        gathered->rows.push_reserved(i);
-      }
-      gathered->sum[i] += factors.a.value[p] * scale;
+      // Whether a row is new is hard to foresee, so it is no question for a branch.
+      const bool fresh = mark[i] != j;
+      const double before[2] = {sum[i], 0.0};
+      mark[i] = j;
+      rows[count] = i;
+      count += fresh;
+      sum[i] = before[fresh] + factors.a.value[p] * scale;
     }
   }
+  gathered->count = count;
 }
 
 // About the number of entries of the product, from every 32nd column.
@@ -69,7 +76,7 @@ static uint64_t estimate_entries(const Factors& factors, Accumulator* gathered, 
     if (factors.unknown[column] == k_none) continue;
     if (j % k_step == 0) {
       gather_column(factors, column, j, gathered, work);
-      total += gathered->rows.size();
+      total += gathered->count;
     }
     ++j;
   }
@@ -86,6 +93,17 @@ static Status make_room(size_t more, size_t* room, Csc* product) {
   return product->value.reserve(*room);
 }
 
+static Status append_column(const Accumulator& gathered, Csc* product) {
+  const size_t first = product->row.size();
+  TRY(product->row.resize(first + gathered.count));
+  TRY(product->value.resize(first + gathered.count));
+  uint32_t* const row = product->row.data() + first;
+  double* const value = product->value.data() + first;
+  sort_distinct(gathered.rows.data(), gathered.count, row);
+  for (uint32_t k = 0; k < gathered.count; ++k) value[k] = gathered.sum[row[k]];
+  return {};
+}
+
 Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
                         Span<const uint32_t> unknown, uint32_t unknowns, Part part, Csc* product) {
   Context& context = product->start.context();
@@ -94,7 +112,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   size_t work = 0, room = 0;
   TRY(gathered.mark.assign(unknowns, k_none));
   TRY(gathered.sum.resize(unknowns));
-  TRY(gathered.rows.reserve(unknowns));
+  TRY(gathered.rows.resize(size_t{unknowns} + 1));
   TRY(product->start.resize(size_t{unknowns} + 1));
   product->rows = product->cols = unknowns;
   product->row.clear();
@@ -105,13 +123,9 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   for (uint32_t column = 0; column < b.cols; ++column) {
     if (unknown[column] == k_none) continue;
     gather_column(factors, column, j, &gathered, &work);
-    sort(gathered.rows.span(), [](uint32_t x, uint32_t y) { return x < y; });
-    TRY(make_room(gathered.rows.size(), &room, product));
+    TRY(make_room(gathered.count, &room, product));
     product->start[j++] = static_cast<uint32_t>(product->row.size());
-    for (const uint32_t i : gathered.rows) {
-      product->row.push_reserved(i);
-      product->value.push_reserved(gathered.sum[i]);
-    }
+    TRY(append_column(gathered, product));
     TRY(pause_for_checkpoint(context, &work));
   }
   product->start[unknowns] = static_cast<uint32_t>(product->row.size());

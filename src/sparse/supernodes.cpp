@@ -1,7 +1,5 @@
 #include "sparse/supernodes.h"
 
-#include "base/sort.h"
-
 namespace wireskin::sparse {
 
 // A supernode while the partition is made: its columns begin at `first`, `tail` rows lie below
@@ -72,7 +70,7 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
     result->panel[s] = static_cast<uint32_t>(values);
     const uint32_t height = block.width + block.tail;
     rows += height;
-    values += uint64_t{round_up_rows(height)} * block.width + k_panel_margin;
+    values += trapezoid_size(round_up_rows(height), block.width) + k_panel_margin;
     if (rows >= k_none || values >= k_none) {
       return fail(Code::too_large, "the factor is too large for 32-bit indices");
     }
@@ -84,42 +82,73 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
   return {};
 }
 
+namespace {
+
 // What the row lists are collected with: supernodes whose rows continue in the same supernode are
-// linked, and mark[i] == s + 1 means that row i is listed in supernode s.
+// linked, and the rows under way are a set of bits. Bit w of `words` says that word w is not zero.
 struct RowCollector {
   Array<uint32_t> child;  // of each supernode
   Array<uint32_t> sibling;
-  Array<uint32_t> mark;
+  Array<uint64_t> bits;
+  Array<uint64_t> words;
+  uint32_t last = 0;  // no row of the set comes after it
 
-  explicit RowCollector(Context& c) : child(c), sibling(c), mark(c) {}
+  explicit RowCollector(Context& c) : child(c), sibling(c), bits(c), words(c) {}
+
+  void add(uint32_t row) {
+    bits[row / 64] |= uint64_t{1} << row % 64;
+    words[row / 4096] |= uint64_t{1} << row / 64 % 64;
+    last = row > last ? row : last;
+  }
 };
 
-static void collect_row(RowCollector* rows, uint32_t s, uint32_t i, Supernodes* result,
-                        uint32_t* end) {
-  if (i < result->first[s + 1] || rows->mark[i] == s + 1) return;
-  rows->mark[i] = s + 1;
-  WIRESKIN_ASSERT(*end < result->row_start[s + 1]);
-  result->row[(*end)++] = i;
+}  // namespace
+
+// The lowest bit that is set; there is one.
+static uint32_t lowest_bit(uint64_t word) {
+#if defined(__GNUC__) && SIZE_MAX > 0xffffffff
+  return static_cast<uint32_t>(__builtin_ctzll(word));
+#else
+  uint32_t bit = 0;
+  for (uint32_t half = 32; half > 0; half /= 2) {
+    if ((word & ((uint64_t{1} << half) - 1)) != 0) continue;
+    word >>= half;
+    bit += half;
+  }
+  return bit;
+#endif
+}
+
+// Writes the rows of the set, none of which is less than `first`, and empties it.
+static uint32_t* take_rows(uint32_t first, RowCollector* rows, uint32_t* to) {
+  for (uint32_t group = first / 4096; group <= rows->last / 4096; ++group) {
+    for (; rows->words[group] != 0; rows->words[group] &= rows->words[group] - 1) {
+      const uint32_t word = 64 * group + lowest_bit(rows->words[group]);
+      uint64_t bits = rows->bits[word];
+      rows->bits[word] = 0;
+      for (; bits != 0; bits &= bits - 1) *to++ = 64 * word + lowest_bit(bits);
+    }
+  }
+  rows->last = 0;
+  return to;
 }
 
 // Rows come from the matrix and from the children, and from nowhere else.
 static void list_rows(const Pattern& lower, uint32_t s, RowCollector* rows, Supernodes* result) {
-  uint32_t end = result->row_start[s];
-  for (uint32_t j = result->first[s]; j < result->first[s + 1]; ++j) result->row[end++] = j;
-  const uint32_t tail = end;
-  for (uint32_t j = result->first[s]; j < result->first[s + 1]; ++j) {
-    for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
-      collect_row(rows, s, lower.index[k], result, &end);
-    }
+  const uint32_t first = result->first[s], after = result->first[s + 1];
+  for (uint32_t j = first; j < after; ++j) {
+    rows->add(j);
+    for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) rows->add(lower.index[k]);
   }
   for (uint32_t c = rows->child[s]; c != k_none; c = rows->sibling[c]) {
-    for (uint32_t k = result->row_start[c]; k < result->row_start[c + 1]; ++k) {
-      collect_row(rows, s, result->row[k], result, &end);
+    for (uint32_t k = result->row_start[c] + result->width(c); k < result->row_start[c + 1]; ++k) {
+      rows->add(result->row[k]);
     }
   }
-  WIRESKIN_ASSERT(end == result->row_start[s + 1]);
-  sort(result->row.span().part(tail, end - tail), [](uint32_t a, uint32_t b) { return a < b; });
-  if (tail == end) return;
+  const uint32_t* end = take_rows(first, rows, result->row.data() + result->row_start[s]);
+  const uint32_t tail = result->row_start[s] + (after - first);
+  WIRESKIN_ASSERT(end == result->row.data() + result->row_start[s + 1]);
+  if (result->row.data() + tail == end) return;
   const uint32_t above = result->of_column[result->row[tail]];
   rows->sibling[s] = rows->child[above];
   rows->child[above] = s;
@@ -141,7 +170,8 @@ Status find_supernodes(const Pattern& lower, Span<const uint32_t> parent,
   RowCollector rows(context);
   TRY(rows.child.assign(result->count, k_none));
   TRY(rows.sibling.assign(result->count, k_none));
-  TRY(rows.mark.assign(parent.size(), 0));
+  TRY(rows.bits.assign(parent.size() / 64 + 1, 0));
+  TRY(rows.words.assign(parent.size() / 4096 + 1, 0));
   uint32_t checked = 0;
   for (uint32_t s = 0; s < result->count; ++s) {
     list_rows(lower, s, &rows, result);

@@ -330,6 +330,27 @@ TEST_CASE("creases: bad input is named") {
   }
 }
 
+TEST_CASE("creases: a point has no sides, so it cannot be sharp") {
+  Net net = roof(0.5, 3);
+  const P place = turn({0.5, 0.2, -0.25}), normal = turn({0.5, 0, 1});
+  Line point;
+  point.positions = {place.x, place.y, place.z};
+  point.normals = {normal.x, normal.y, normal.z};
+  point.nodes = {WSK_NONE};
+  net.lines.push_back(point);
+  const Built smooth = must_build(net, WSK_METHOD_STANKO, 0.1);
+  for (const bool right : {false, true}) {
+    net.lines.back().sharp = true;
+    net.lines.back().right = right ? point.normals : std::vector<double>();
+    const Built sharp = must_build(net, WSK_METHOD_STANKO, 0.1);
+    REQUIRE(sharp.position.size() == smooth.position.size());
+    for (size_t i = 0; i < sharp.position.size(); ++i) {
+      const P apart = sharp.position[i] - smooth.position[i];
+      CHECK(dot(apart, apart) == 0);
+    }
+  }
+}
+
 TEST_CASE("creases: memory that runs out is a status and gives everything back") {
   const Net net = can(Rim::bare_crease, 4);
   const std::vector<wsk_curve> curves = net.curves();

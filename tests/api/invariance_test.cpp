@@ -18,6 +18,8 @@ static void scale(std::vector<double>& values, int exponent) {
 }
 
 TEST_CASE("lengths scaled by a power of two scale the result by it, exactly") {
+  std::vector<int> powers = {-300, -1, 33, 300};
+  if (tries_all_places()) powers = {-300, -151, -20, -1, 1, 33, 170, 300};
   for (const Scene& scene : all()) {
     CAPTURE(scene.name);
     for (const bool own_spacing : {true, false}) {
@@ -26,7 +28,7 @@ TEST_CASE("lengths scaled by a power of two scale the result by it, exactly") {
       if (!own_spacing && !scene.curves.empty() && scene.name != "saddle") continue;  // large
       const Call whole = watched_scene(reference);
       REQUIRE(whole.status == WSK_OK);
-      for (const int k : {-300, -151, -20, -1, 1, 33, 170, 300}) {
+      for (const int k : powers) {
         CAPTURE(k);
         Scene scaled = reference;
         for (Curve& curve : scaled.curves) {

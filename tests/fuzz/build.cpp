@@ -1,6 +1,6 @@
-// libFuzzer target: curves to wsk_build. With WIRESKIN_FUZZ_NETWORK the call is cancelled once the
+// libFuzzer target: curves to wsk_build. With WIRESKIN_FUZZ_PATCHES the call is cancelled once the
 // patches have triangles; without, the whole pipeline runs, by every method.
-#include "fuzz/bytes.h"
+#include "fuzz/curves.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Bytes bytes(data, size);
@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const double part = (2 + bytes.below(6)) / 2.0;
   if (bytes.one_in(6)) options.noise = bytes.number();
   if (bytes.one_in(6)) options.soft = bytes.number();
-#ifdef WIRESKIN_FUZZ_NETWORK
+#ifdef WIRESKIN_FUZZ_PATCHES
   limits.last_stage = WSK_STAGE_PATCHES;
 #endif
   scenes::Scene scene;

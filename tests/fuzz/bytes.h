@@ -1,5 +1,5 @@
-// Bytes of a fuzzer as numbers and curves: any bytes mean something, most of them something that is
-// nearly sound, and when they run out zeros follow.
+// Bytes of a fuzzer as numbers, and what all targets ask of a call: any bytes mean something, and
+// when they run out zeros follow.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "support/faulty_allocator.h"
+#include "fuzz/arena.h"
 #include "support/scenes.h"
 
 namespace fuzz {
@@ -31,6 +31,9 @@ class Bytes {
   }
   uint32_t below(uint32_t n) { return byte() % n; }
   bool one_in(uint32_t n) { return below(n) == n - 1; }
+  // A count from 1 on: below `usual` seven times in eight, for small cases run by the thousand a
+  // second and find most; now and then up to `most`.
+  uint32_t count(uint32_t usual, uint32_t most) { return 1 + below(one_in(8) ? most : usual); }
 
   // Eighths between -16 and 16, so that points coincide and lie in line; now and then something
   // finer, any bits at all, or one of the numbers that break things.
@@ -68,46 +71,9 @@ class Bytes {
   size_t left_;
 };
 
-// Curves between a few nodes, with samples near the straight line between them.
-inline std::vector<scenes::Curve> read_curves(Bytes& bytes, bool always_nodes) {
-  const uint32_t node_count = 2 + bytes.below(8);
-  std::vector<double> nodes;
-  for (uint32_t i = 0; i < 3 * node_count; ++i) nodes.push_back(bytes.number());
-  std::vector<scenes::Curve> curves(1 + bytes.below(12));
-  for (scenes::Curve& curve : curves) {
-    const uint8_t flags = bytes.byte();
-    const uint32_t from = bytes.below(node_count), to = bytes.below(node_count);
-    const uint32_t segments = 1 + bytes.below(6);
-    const bool straight = (flags & 1) != 0, numbered = always_nodes || (flags & 2) != 0;
-    curve.closed = (flags & 12) == 12;
-    curve.boundary = (flags & 16) != 0;
-    curve.sharp = (flags & 0xe0) == 0x40;
-    if ((flags & 0xe0) == 0x60) curve.soft = bytes.number();
-    double normal[3] = {0, 0, 1};
-    for (uint32_t i = 0; i <= segments; ++i) {
-      const double t = static_cast<double>(i) / segments;
-      const bool inside = i > 0 && i < segments;
-      for (size_t k = 0; k < 3; ++k) {
-        double x = nodes[3 * from + k] + t * (nodes[3 * to + k] - nodes[3 * from + k]);
-        if (i == segments) x = nodes[3 * to + k];
-        if (inside && !straight) x += bytes.number() / 4;
-        curve.positions.push_back(x);
-      }
-      if (!straight && bytes.one_in(4)) {
-        for (double& n : normal) n = bytes.number();
-      }
-      curve.normals.insert(curve.normals.end(), normal, normal + 3);
-      const uint32_t node = i == 0 ? from : to;
-      curve.nodes.push_back(inside || !numbered ? WSK_NONE : node);
-    }
-    if ((flags & 0xe0) == 0x80) curve.normals.clear();
-  }
-  return curves;
-}
-
 // A call is cut short after some work: what is looked for are crashes, not long runs.
 struct Limits {
-  scenes::FaultyAllocator allocator;
+  Arena allocator;
   wsk_stage last_stage = WSK_STAGE_COUNT;
   size_t checkpoints = 0;
   size_t most_checkpoints = 3000;
@@ -122,28 +88,15 @@ struct Limits {
     options.progress = [](wsk_stage stage, double, void* user) {
       static_cast<Limits*>(user)->stage = stage;
     };
-    options.cancel = [](void* user) -> int32_t {
-      Limits& self = *static_cast<Limits*>(user);
-      return ++self.checkpoints > self.most_checkpoints || self.stage > self.last_stage;
-    };
+    options.cancel = cancel;
     return options;
   }
-};
 
-// Of the finite coordinates, at least the least number that is no zero.
-inline double extent_of(const std::vector<scenes::Curve>& curves) {
-  double low = 0.0, high = 0.0;
-  bool any = false;
-  for (const scenes::Curve& curve : curves) {
-    for (const double x : curve.positions) {
-      if (!std::isfinite(x)) continue;
-      low = any ? std::fmin(low, x) : x;
-      high = any ? std::fmax(high, x) : x;
-      any = true;
-    }
+  static int32_t cancel(void* user) {
+    Limits& self = *static_cast<Limits*>(user);
+    return ++self.checkpoints > self.most_checkpoints || self.stage > self.last_stage;
   }
-  return high - low;
-}
+};
 
 // A valid surface or a documented status; of a flow the surface may have no triangles.
 inline void check_outcome(wsk_status status, wsk_surface* surface, bool flow = false) {

@@ -1,8 +1,8 @@
-// libFuzzer target: sparse symmetric matrices to the orderings, to Cholesky and to L D L^T.
-// Whatever is diagonally dominant must be solved, and by both to the same numbers.
-#include "sparse/cholesky.h"
-
+// libFuzzer target: sparse symmetric matrices to the orderings, to Cholesky, to L D L^T and to
+// conjugate gradients. Whatever is diagonally dominant must be solved, and by all three to the same
+// numbers; a factor made again has the same bits.
 #include "fuzz/bytes.h"
+#include "sparse/conjugate_gradients.h"
 #include "sparse/ldl.h"
 #include "sparse/nested_dissection.h"
 #include "sparse/ordering.h"
@@ -18,7 +18,7 @@ struct Matrix {
 
 static Matrix read_matrix(fuzz::Bytes& bytes, bool dominant) {
   Matrix m;
-  m.n = 1 + bytes.below(120);
+  m.n = bytes.count(28, 120);
   m.dense.assign(size_t{m.n} * m.n, 0.0);
   for (uint32_t i = 0; i < m.n; ++i) m.at(i, i) = dominant ? 1.0 : bytes.number();
   for (uint32_t left = 4 * m.n; left > 0 && !bytes.empty(); --left) {
@@ -54,41 +54,72 @@ static Status solve(const sparse::Csc& lower, const Array<uint32_t>& order, Solv
   return solver->solve({x->data(), x->size()}, columns);
 }
 
+static Status order_columns(fuzz::Bytes& bytes, bool dissect, const sparse::Csc& lower,
+                            Array<uint32_t>* order) {
+  std::vector<Vec3> places;
+  std::vector<uint32_t> patches;
+  if (!dissect) return sparse::minimum_degree(lower, order);
+  for (uint32_t i = 0; i < lower.cols; ++i) {
+    places.push_back({bytes.byte() / 8.0, bytes.byte() / 8.0, 0.0});
+    patches.push_back(bytes.below(3));
+  }
+  return sparse::nested_dissection(
+      lower, {{}, {places.data(), places.size()}, {patches.data(), patches.size()}}, order);
+}
+
+static void require_near(const std::vector<double>& x, const std::vector<double>& y,
+                         double tolerance) {
+  for (size_t i = 0; i < x.size(); ++i) fuzz::require(std::fabs(x[i] - y[i]) < tolerance);
+}
+
+// The same by conjugate gradients, with the diagonal or the factor itself to help.
+static void iterate(Context& context, bool by_diagonal, const sparse::Csc& lower,
+                    sparse::Cholesky& cholesky) {
+  std::vector<double> ones(lower.cols, 1.0), x(lower.cols, 0.0), y = ones;
+  sparse::Jacobi jacobi(context);
+  sparse::CgResult result;
+  fuzz::require(jacobi.build(lower).ok() && cholesky.solve({y.data(), y.size()}, 1).ok());
+  const sparse::LinearOperator help =
+      by_diagonal ? jacobi.linear_operator() : sparse::inverse_operator(cholesky);
+  const Status status =
+      sparse::conjugate_gradients(context, sparse::symmetric_operator(lower), help,
+                                  {ones.data(), ones.size()}, {x.data(), x.size()}, {}, &result);
+  fuzz::require(status.ok() && result.converged);
+  require_near(x, y, 1e-8);
+}
+
 static void check(Context& context, fuzz::Bytes& bytes) {
   const bool dominant = bytes.one_in(2), dissect = bytes.one_in(2);
-  const uint32_t columns = 1 + bytes.below(5);
+  const uint32_t iterative = bytes.below(8);
+  const uint32_t columns = bytes.count(2, 6);
   Matrix m = read_matrix(bytes, dominant);
   sparse::Csc lower(context);
   fuzz::require(lower_of(m, &lower).ok());
   Array<uint32_t> order(context);
-  std::vector<Vec3> places;
-  std::vector<uint32_t> patches;
-  for (uint32_t i = 0; i < m.n; ++i) {
-    places.push_back({bytes.byte() / 8.0, bytes.byte() / 8.0, 0.0});
-    patches.push_back(bytes.below(3));
-  }
-  const sparse::Geometry geometry = {
-      {}, {places.data(), places.size()}, {patches.data(), patches.size()}};
-  fuzz::require((dissect ? sparse::nested_dissection(lower, geometry, &order)
-                         : sparse::minimum_degree(lower, &order))
-                    .ok());
+  fuzz::require(order_columns(bytes, dissect, lower, &order).ok());
   std::vector<uint8_t> seen(m.n, 0);
   fuzz::require(order.size() == m.n);
   for (const uint32_t column : order) fuzz::require(column < m.n && seen[column]++ == 0);
 
-  std::vector<double> x(size_t{m.n} * columns, 1.0), y = x;
+  std::vector<double> x(size_t{m.n} * columns, 1.0), y = x, again = x;
   sparse::Cholesky cholesky(context);
   sparse::Ldl ldl(context);
   const Status first = solve(lower, order, &cholesky, &x, columns);
   const Status second = solve(lower, order, &ldl, &y, columns);
+  if (first.ok()) {
+    fuzz::require(cholesky.factor(lower).ok());
+    fuzz::require(cholesky.solve({again.data(), again.size()}, columns).ok());
+    fuzz::require(std::memcmp(again.data(), x.data(), x.size() * sizeof(double)) == 0);
+  }
   if (!dominant) return;
   fuzz::require(first.ok() && second.ok());
-  for (size_t i = 0; i < x.size(); ++i) fuzz::require(std::fabs(x[i] - y[i]) < 1e-9);
+  require_near(x, y, 1e-9);
+  if (iterative < 2) iterate(context, iterative == 0, lower, cholesky);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Bytes bytes(data, size);
-  scenes::FaultyAllocator heap;
+  fuzz::Arena heap;
   {
     Context context({heap.allocate, heap.release, &heap}, size_t{1} << 26, {});
     check(context, bytes);

@@ -1,5 +1,6 @@
-// libFuzzer target: raw curves to wsk_connect, and what comes out through the network to patches.
-#include "fuzz/bytes.h"
+// libFuzzer target: raw curves to wsk_connect, and what comes out to the network of wsk_build,
+// which is cancelled before the patches are triangulated.
+#include "fuzz/curves.h"
 
 static void check_network(const wsk_network* network, const std::vector<scenes::Curve>& given) {
   wsk_network_view view;
@@ -20,7 +21,6 @@ static void check_network(const wsk_network* network, const std::vector<scenes::
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Bytes bytes(data, size);
   fuzz::Limits limits;
-  limits.last_stage = WSK_STAGE_PATCHES;
   wsk_options options = limits.options();
   wsk_connect_options how;
   wsk_connect_options_init(&how, sizeof how);
@@ -37,7 +37,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     check_network(network, scene.curves);
     wsk_network_view view;
     wsk_network_get_view(network, &view, sizeof view);
-    options.spacing = fuzz::extent_of(scene.curves) / 6;
+    limits.last_stage = WSK_STAGE_NETWORK;
+    options.smoothing = WSK_SMOOTHING_NONE;
+    limits.stage = WSK_STAGE_INPUT;
+    options.spacing = fuzz::extent_of(scene.curves) / 3;
     wsk_surface* surface = nullptr;
     fuzz::check_outcome(wsk_build(view.curves, view.curve_count, &options, &surface, nullptr),
                         surface);

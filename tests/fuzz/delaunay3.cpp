@@ -24,11 +24,12 @@ static void check_tetrahedra(const flow::Delaunay& d, const std::vector<Vec3>& p
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Bytes bytes(data, size);
   fuzz::Limits limits;
-  scenes::FaultyAllocator& heap = limits.allocator;
+  fuzz::Arena& heap = limits.allocator;
   {
     Context context({heap.allocate, heap.release, &heap}, size_t{1} << 26, {});
     std::vector<Vec3> points;
-    while (!bytes.empty() && points.size() < 80) {
+    const uint32_t most = 3 + bytes.count(20, 80);
+    while (!bytes.empty() && points.size() < most) {
       Vec3 p = {bytes.number(), bytes.number(), bytes.number()};
       // Some on a sphere, some again.
       if (bytes.one_in(8)) p = std::sqrt(1.0 / (1e-9 + dot(p, p))) * p;

@@ -1,5 +1,5 @@
 // libFuzzer target: curves and points to wsk_flow_build and two surfaces of the same flow.
-#include "fuzz/bytes.h"
+#include "fuzz/curves.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Bytes bytes(data, size);

@@ -5,10 +5,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Bytes bytes(data, size);
   fuzz::Limits limits;
   const wsk_options options = limits.options();
-  std::vector<scenes::SensorCurve> sensors(1 + bytes.below(8));
+  std::vector<scenes::SensorCurve> sensors(bytes.count(4, 8));
   std::vector<wsk_sensor_curve> curves;
   for (scenes::SensorCurve& sensor : sensors) {
-    const uint32_t count = bytes.below(10);
+    const uint32_t count = bytes.count(7, 10) - 1;
     const uint8_t flags = bytes.byte();
     double length = 0.0;
     for (uint32_t i = 0; i < count; ++i) {

@@ -22,10 +22,10 @@ static void check_triangles(const planar::Triangulation& t) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::Bytes bytes(data, size);
   fuzz::Limits limits;
-  scenes::FaultyAllocator& heap = limits.allocator;
+  fuzz::Arena& heap = limits.allocator;
   {
     Context context({heap.allocate, heap.release, &heap}, size_t{1} << 26, {});
-    const uint32_t count = 3 + bytes.below(40);
+    const uint32_t count = 2 + bytes.count(14, 40);
     std::vector<Vec2> points;
     for (uint32_t i = 0; i < count; ++i) {
       const Vec2 p = {bytes.number(), bytes.number()};
@@ -34,9 +34,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       points.push_back(fits ? p : Vec2{1.0, 2.0});
     }
     std::vector<uint32_t> border, lines;
-    const uint32_t loops = 1 + bytes.below(4);
+    const uint32_t loops = bytes.count(2, 4);
     for (uint32_t l = 0; l < loops; ++l) {
-      const uint32_t corners = 2 + bytes.below(12), first = bytes.below(count);
+      const uint32_t corners = 1 + bytes.count(8, 12), first = bytes.below(count);
       uint32_t last = first;
       for (uint32_t i = 1; i < corners; ++i) {
         const uint32_t next = bytes.one_in(3) ? bytes.below(count) : (last + 1) % count;
@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       }
       border.insert(border.end(), {last, first});
     }
-    for (uint32_t i = bytes.below(6); i > 0; --i) {
+    for (uint32_t i = bytes.count(3, 6) - 1; i > 0; --i) {
       lines.push_back(bytes.below(count));
       lines.push_back(bytes.below(count));
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include "support/context.h"
@@ -111,4 +112,18 @@ TEST_CASE("sort: the killer adversary does not make it quadratic") {
   CHECK(static_cast<double>(comparisons) < 8.0 * n_log_n(n));
   std::vector<uint32_t> keys(value.begin(), value.end());
   CHECK(static_cast<double>(check_sort(with_index(keys))) < 8.0 * n_log_n(n));
+}
+
+TEST_CASE("sort: different numbers, few or many, are written in order") {
+  std::mt19937 random(12);
+  for (uint32_t count = 0; count < 70; ++count) {
+    std::vector<uint32_t> values(count), sorted(count + 1, 7);
+    for (uint32_t i = 0; i < count; ++i) values[i] = 5 * i;
+    std::shuffle(values.begin(), values.end(), random);
+    const std::vector<uint32_t> given = values;
+    wireskin::sort_distinct(values.data(), count, sorted.data());
+    CHECK(values == given);
+    for (uint32_t i = 0; i < count; ++i) REQUIRE(sorted[i] == 5 * i);
+    CHECK(sorted[count] == 7);
+  }
 }

@@ -120,6 +120,16 @@ TEST_CASE("cholesky: random matrices against a dense factor") {
   }
 }
 
+// The blocks of the large updates are far more than that.
+TEST_CASE("cholesky: a small system needs little memory") {
+  Heap heap;
+  const Symmetric a = square(grid(8, 8));
+  Cholesky factor(heap.context);
+  must(prepare(a.csc(heap.context), &factor));
+  CHECK(factor.factor_bytes() < 64u << 10);
+  CHECK(heap.allocator.peak_bytes < 128u << 10);
+}
+
 TEST_CASE("cholesky: any order gives the solution") {
   std::mt19937 random(15);
   const Symmetric a = random_spd(80, 5.0, random);

@@ -57,6 +57,34 @@ void check_update(uint32_t rows, uint32_t columns, uint32_t depth, bool lower, b
   }
 }
 
+// The columns of a panel as they are stored, and the same in a rectangle.
+struct Trapezoid {
+  uint32_t rows, width;
+  std::vector<double> stored, whole;
+
+  Trapezoid(uint32_t rows_in, uint32_t width_in, std::mt19937& random)
+      : rows(rows_in),
+        width(width_in),
+        stored(random_vector(trapezoid_size(rows, width), random)),
+        whole(size_t{rows} * width) {
+    for (uint32_t j = 0; j < width; ++j) {
+      for (uint32_t i = j / k_trapezoid_block * k_trapezoid_block; i < rows; ++i) {
+        whole[i + size_t{j} * rows] = stored[trapezoid_offset(rows, j) + i];
+      }
+    }
+  }
+  std::vector<double> below_diagonal(bool of_stored) const {
+    std::vector<double> values;
+    for (uint32_t j = 0; j < width; ++j) {
+      for (uint32_t i = j; i < rows; ++i) {
+        values.push_back(of_stored ? stored[trapezoid_offset(rows, j) + i]
+                                   : whole[i + size_t{j} * rows]);
+      }
+    }
+    return values;
+  }
+};
+
 }  // namespace
 
 TEST_CASE("dense: updates of any shape have the bits of the definition on every instruction set") {
@@ -85,6 +113,60 @@ TEST_CASE("dense: updates done in blocks have the same bits") {
       }
     }
     check_update(rows, columns, depth, false, false, true, random);
+  }
+}
+
+TEST_CASE("dense: columns of a trapezoid lose the products of those on their left") {
+  std::mt19937 random(9);
+  for (const auto [rows, depth, columns] : {std::array<uint32_t, 3>{12, 8, 3},
+                                            {20, 16, 4},
+                                            {32, 16, 13},
+                                            {56, 24, 30},
+                                            {148, 32, 64},
+                                            {260, 64, 64},
+                                            {352, 40, 150},
+                                            {420, 264, 60}}) {
+    const Trapezoid given(rows, depth + columns, random);
+    Trapezoid truth = given;
+    const double* from = truth.whole.data() + depth;
+    plain_update({rows - depth, columns, depth, from, rows, from, 1, rows,
+                  truth.whole.data() + depth + size_t{depth} * rows, rows, true, false});
+    for (const Instructions set : k_all) {
+      if (!has_instructions(set)) continue;
+      Trapezoid result = given;
+      std::vector<double> scratch(k_update_scratch);
+      from = result.stored.data() + depth;
+      dense_kernels(set).update({rows - depth, columns, depth, from, rows, from, 1, rows,
+                                 result.stored.data() + trapezoid_offset(rows, depth) + depth,
+                                 rows - depth, true, false, true, true},
+                                scratch.data());
+      REQUIRE(result.below_diagonal(true) == truth.below_diagonal(false));
+    }
+  }
+}
+
+TEST_CASE("dense: the rows below a trapezoid make an update") {
+  std::mt19937 random(10);
+  for (const auto [rows, width] :
+       {std::array<uint32_t, 2>{8, 1}, {24, 8}, {40, 13}, {120, 20}, {132, 32}, {400, 75}}) {
+    const Trapezoid given(rows, width, random);
+    const uint32_t first = (width + 3) / 4 * 4, tail = rows - first;
+    std::vector<double> truth(size_t{tail} * tail);
+    const double* from = given.whole.data() + first;
+    plain_update({tail, tail, width, from, rows, from, 1, rows, truth.data(), tail, false, true});
+    for (const Instructions set : k_all) {
+      if (!has_instructions(set)) continue;
+      std::vector<double> result(size_t{tail} * tail), scratch(k_update_scratch);
+      from = given.stored.data() + first;
+      dense_kernels(set).update({tail, tail, width, from, rows, from, 1, rows, result.data(), tail,
+                                 true, true, true, false},
+                                scratch.data());
+      for (uint32_t j = 0; j < tail; ++j) {
+        for (uint32_t i = j; i < tail; ++i) {
+          REQUIRE(result[i + size_t{j} * tail] == truth[i + size_t{j} * tail]);
+        }
+      }
+    }
   }
 }
 

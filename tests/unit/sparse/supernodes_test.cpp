@@ -40,7 +40,8 @@ void check_invariants(const Supernodes& s, uint32_t n) {
   REQUIRE(s.first[s.count] == n);
   for (uint32_t k = 0; k < s.count; ++k) {
     REQUIRE(s.width(k) > 0);
-    REQUIRE(s.panel[k + 1] - s.panel[k] == s.width(k) * s.column_step(k) + k_panel_margin);
+    REQUIRE(s.panel[k + 1] - s.panel[k] ==
+            trapezoid_size(s.column_step(k), s.width(k)) + k_panel_margin);
     for (uint32_t r = 0; r < s.width(k); ++r) {
       REQUIRE(s.rows(k)[r] == s.first[k] + r);
       REQUIRE(s.of_column[s.first[k] + r] == k);
