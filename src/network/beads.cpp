@@ -38,6 +38,7 @@ Vec3 Beads::direction_at(const WirePlace& place) const {
   constexpr double k_step = 1.0 / 16.0;
   const uint32_t c = curve[place.edge], before = wires.previous(c, place.edge);
   if (wires.next(c, place.edge) == k_none) {
+    if (before == k_none) return {};  // a point leads nowhere
     return wires.position[place.edge] - point_of_place(wires, c, {before, 1.0 - k_step});
   }
   const double step = place.part + k_step < 1.0 ? k_step : -k_step;

@@ -59,8 +59,9 @@ struct Beads {
   Vec3 point_at(const WirePlace& place) const {
     return point_of_place(wires, curve[place.edge], place);
   }
-  Vec3 direction_at(const WirePlace& place) const;  // along the curve, of any length
-  Vec3 normal_at(const WirePlace& place) const;     // not unit; zero where it is not known
+  Vec3 direction_at(
+      const WirePlace& place) const;             // along the curve, of any length; of a point zero
+  Vec3 normal_at(const WirePlace& place) const;  // not unit; zero where it is not known
   Origin origin_of(const WirePlace& place) const;
 
   BeadPlace locate(const WirePlace& place) const;

@@ -163,9 +163,10 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* jud
     if (faults == nullptr) return status;
     (*faults)[h / 2] = status;
   }
-  // What lies there is to be named as a patch that fails.
+  // What lies there is to be named as a patch that fails, on either side of a ring too.
   for (uint32_t h = 0; faults != nullptr && h < halves; ++h) {
-    if (!(*faults)[h / 2].ok()) judged->outside[cycles.cycle[h]] = 0;
+    if ((*faults)[h / 2].ok()) continue;
+    judged->outside[cycles.cycle[h]] = judged->ring[cycles.cycle[h]] = 0;
   }
   return {};
 }

@@ -78,7 +78,7 @@ bool Snapper::would_touch(uint32_t b, const WirePlace& place) const {
   for (uint32_t other = beads_.bead[b].ring; other != b; other = beads_.bead[other].ring) {
     if (beads_.curve_of(other) == beads_.curve[place.edge]) continue;
     const Vec3 there = unit(beads_.direction_at(beads_.place_of(other)));
-    if (run_along(own, there)) return true;
+    if (there != Vec3{} && run_along(own, there)) return true;  // a point leads nowhere
   }
   return false;
 }

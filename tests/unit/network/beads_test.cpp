@@ -61,6 +61,13 @@ TEST_CASE("directions follow the curve, at its last sample too, and normals go o
   CHECK(net.beads.normal_at({2, 0.0}) == Vec3{0, 0, 1});
 }
 
+TEST_CASE("a point has no direction") {
+  StrungBeads net;
+  net.add({{1, 2, 3}});
+  net.string(1);
+  CHECK(net.beads.direction_at({0, 0.0}) == Vec3{});
+}
+
 TEST_CASE("new nodes next to each other on a curve become one, old ones do not") {
   StrungBeads net;
   net.add(line({0, 0, 0}, {4, 0, 0}, 4));

@@ -147,6 +147,20 @@ TEST_CASE("network: an inner curve tagged as boundary is named") {
   CHECK(s.status.place.curve == 5);
 }
 
+// Each side of it is named as a patch that fails, so neither may stand for the other.
+TEST_CASE("network: a border given three times is no ring") {
+  CurveNet net;
+  for (int k = 0; k < 3; ++k) net.add_circle({0, 0, 0}, 1.0, true, 6);
+  Stages s(net);
+  CHECK(s.status.code == Code::inconsistent_normals);
+  Network n(s.heap.context);
+  Array<Status> faults(s.heap.context);
+  must(find_patches(s.curves, view(s.boundary), s.nodes.span(), &n, &faults));
+  for (const Status& fault : faults) CHECK(!fault.ok());
+  REQUIRE(n.patches() >= 2);
+  for (uint32_t p = 0; p < n.patches(); ++p) CHECK(n.ring[p] == 0);
+}
+
 TEST_CASE("network: dangling ends are named") {
   CurveNet net = saddle_net();
   net.add_line({0, 0, 0}, {0.3, 0.4, 0}, {0, 0, 1});

@@ -159,3 +159,17 @@ TEST_CASE("curves drawn on a surface: an end on a border is not taken away by a 
   CHECK(net.wires.position[net.wires.start[1]].y == doctest::Approx(0.0));
   CHECK(net.result.snaps.size() == 5);
 }
+
+TEST_CASE("curves drawn on a surface: a point at a node keeps no curve from it") {
+  for (const bool point : {false, true}) {
+    CAPTURE(point);
+    Snapped net;
+    net.add(line({-1, 0, 0}, {1, 0, 0}, 40));
+    net.add(line({0, -1, 0}, {0, 1, 0}, 40));
+    net.add(line({-1, -1 + 0.004, 0.0018}, {1, 1 + 0.004, 0.0018}, 41));  // past the node
+    if (point) net.add({{0, 0, 0}});
+    net.snap(0.05);
+    CHECK(net.counts.nodes == 1);
+    CHECK(net.counts.components == 1);
+  }
+}
