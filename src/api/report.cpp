@@ -45,6 +45,8 @@ void report_counts(const Counts& counts, const Scale& unscale, wsk_report* repor
   report->failed_patches = counts.failed_patches;
   report->ambiguous_patches = counts.ambiguous_patches;
   report->first_ambiguous_patch = counts.first_ambiguous_patch;
+  report->inverted_triangles = counts.inverted_triangles;
+  report->first_inverted_patch = counts.first_inverted_patch;
 }
 
 void report_costs(Context& context, wsk_report* report) {
