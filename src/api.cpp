@@ -47,27 +47,6 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
   return {};
 }
 
-// Far from the origin doubles are coarse, and what then fails does not look like it.
-static Status explain_rounding(const Status& status, Span<const Vec3> positions, double spacing) {
-  constexpr double k_rounding = 1.0 / 4503599627370496.0, k_most = 1.0 / 1024.0;  // of the spacing
-  const bool geometric =
-      status.code == Code::zero_length_curve || status.code == Code::duplicate_samples ||
-      status.code == Code::node_mismatch || status.code == Code::tangent_normal ||
-      status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
-      status.code == Code::bad_mesh || status.code == Code::not_positive_definite;
-  if (!geometric || spacing == 0.0) return status;
-  double farthest = 0.0;
-  for (const Vec3& p : positions) {
-    const double here = greatest_component(p);
-    farthest = here > farthest ? here : farthest;
-  }
-  if (!(farthest * k_rounding > k_most * spacing)) return status;
-  return fail(status.code,
-              "the network lies so far from the origin that its positions are rounded too "
-              "coarsely: move it to the origin",
-              status.place);
-}
-
 static Status build(Context& context, const wsk_curve* curves, size_t count,
                     const wsk_options& options, wsk_report* report, wsk_surface** out) {
   CurveStorage storage(context);
@@ -182,6 +161,7 @@ void wsk_report_init(wsk_report* report, size_t size) {
   defaults.curve = defaults.sample = defaults.node = WSK_NONE;
   defaults.patch = defaults.vertex = defaults.triangle = WSK_NONE;
   defaults.first_ambiguous_patch = WSK_NONE;
+  defaults.first_inverted_patch = WSK_NONE;
   wireskin::api::write_defaults(defaults, size, report);
 }
 

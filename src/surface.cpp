@@ -5,6 +5,7 @@
 #include "network/outsides.h"
 #include "network/partial.h"
 #include "network/patch_mesh.h"
+#include "network/size_limit.h"
 #include "surface/finish.h"
 #include "surface/fit.h"
 #include "surface/verify.h"
@@ -174,6 +175,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
                             settings.partial ? &faults : nullptr));
   counts->segments = static_cast<uint32_t>(network.segment.size());
   counts->patches = network.patches();
+  TRY(network::check_vertex_count(fitted, network, counts->spacing));
   TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
   network::Ambiguity ambiguity;
   TRY(network::group_patches(vertices, &network, &ambiguity));
@@ -215,6 +217,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   if (!original.empty()) {  // the smoothing counted those that are left
     for (uint32_t& p : surface->patch) p = original[p];
     counts->patches += counts->failed_patches;
+    uint32_t& inverted = counts->first_inverted_patch;
+    if (inverted != k_none) inverted = original[inverted];
     TRY(renumber_guarded(original.span(), counts->patches, &surface->patch_guarded));
   }
   return measure_constraints(set, given.span(), surface);

@@ -45,8 +45,10 @@
  * - The same input gives the same bits on every target, whatever the compiler, the optimisation
  *   level or the byte order. Multiplying all input lengths by a power of two multiplies all output
  *   lengths by exactly that.
- * - Sizes: indices have 32 bits, so a mesh has fewer than 2^32 - 1 vertices and the matrix factors
- *   fewer than 2^32 - 1 entries; beyond that the status is WSK_ERROR_TOO_LARGE.
+ * - Sizes: indices have 32 bits, so the matrix factors have fewer than 2^32 - 1 entries, and a mesh
+ *   of the library's fewer than 2^26 vertices, 2^20 edges between two nodes, and 2^16 on the border
+ *   of a patch that no plane shows; beyond that the status is WSK_ERROR_TOO_LARGE. Where the spacing
+ *   asks for more, that is known before anything is meshed.
  *
  * ABI: structs that may grow begin with their size, which the _init function writes; a library
  * newer than the caller never touches bytes beyond it. Numbers of constants never change.
@@ -364,6 +366,11 @@ typedef struct wsk_report {
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
   uint32_t found_borders; /* outsides that were left open because of wsk_options.find_borders */
+  /* Triangles of the result that face against those round them: none in a sound one. Where there
+     are some the surface is folded; curves that fold, or normals that contradict them, ask for it.
+     WSK_NONE where there is no first one. */
+  uint32_t inverted_triangles;
+  uint32_t first_inverted_patch;
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
@@ -586,7 +593,8 @@ typedef struct wsk_network_counts {
   uint32_t nodes;         /* points with more than one sample */
   uint32_t dangling_ends; /* ends of open curves where no other curve is */
   uint32_t components;    /* connected ones */
-  uint32_t open_gaps;     /* pairs of components nearer than the snapping tolerance */
+  uint32_t open_gaps;     /* pairs of components nearer than the snapping tolerance, where they do
+                             not only pass side by side */
 } wsk_network_counts;
 
 /* What a network holds. The arrays belong to it and live until it is freed. */
@@ -621,12 +629,14 @@ typedef struct wsk_network_view {
  * the same place. Fragments become curves through points at which two ends meet, unless there is a
  * corner; closed curves are recognised. Then curves that come nearer to each other than
  * options.snap are joined, nearest first: ends to ends, ends to the inside of curves, and the
- * insides of curves of different components. Insides of one component are joined only where they
- * cross: at a quarter of the tolerance, or at a hundredth where the network is one component
- * without dangling ends already. Places that the network connects within four tolerances are left
- * alone (loose ends: within four times their distance). Where most gaps are next to nothing, as
- * between curves drawn on a surface, ends that meet a curve come first, every crossing becomes a
- * joint, and curves side by side are joined last, where nothing else joins their components.
+ * insides of curves where they cross, seen along the gap between them, or touch, to a twentieth of
+ * the tolerance. Curves that pass side by side stay apart, however near: a hole beside the border
+ * of its patch, two parallel ones, a corner that points to another curve. Insides of one component
+ * are joined at a quarter of the tolerance only, or at a hundredth where the network is one
+ * component without dangling ends already. Places that the network connects within four tolerances
+ * are left alone (loose ends: within four times their distance). Where most gaps are next to
+ * nothing, as between curves drawn on a surface, ends that meet a curve come first, and every
+ * crossing becomes a joint.
  * Existing nodes stay where they are and the curves that come to them bend smoothly; an end comes
  * to the inside of a curve; ends meet in the middle, and so do insides. A joint between samples
  * becomes a sample.

@@ -7,25 +7,6 @@
 
 namespace wireskin_cli {
 
-// The length of the well-formed UTF-8 sequence at the start of the text, 0 if there is none. The
-// ranges of the second byte keep out overlong forms, surrogates and what lies beyond U+10FFFF.
-static size_t utf8_length(std::string_view text) {
-  const auto byte = [text](size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  const size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-  const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-  if (byte(1) < least || byte(1) > most) return 0;
-  for (size_t i = 2; i < length; ++i) {
-    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
-  }
-  return length;
-}
-
 std::string json_string(std::string_view text) {
   constexpr const char* k_hex = "0123456789abcdef";
   std::string result = "\"";
@@ -305,6 +286,8 @@ std::string outcome_json(const ReportInput& input, const Outcome& outcome) {
   json.count("ambiguous_patches", report.ambiguous_patches);
   json.index("first_ambiguous_patch", report.first_ambiguous_patch);
   json.count("found_borders", report.found_borders);
+  json.count("inverted_triangles", report.inverted_triangles);
+  json.index("first_inverted_patch", report.first_inverted_patch);
   json.member("special_patches", patches_json(input.surface));
   json.number("noise_position", report.noise_position);
   json.number("noise_normal", report.noise_normal);

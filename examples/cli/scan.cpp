@@ -131,29 +131,64 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
+size_t utf8_length(std::string_view text) {
+  const auto byte = [text](size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+  if (byte(1) < least || byte(1) > most) return 0;
+  for (size_t i = 2; i < length; ++i) {
+    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
+  }
+  return length;
+}
+
+// What a terminal would obey instead of showing it: controls, those of ISO 6429 beyond ASCII too.
+static bool is_control(std::string_view text) {
+  const unsigned char first = static_cast<unsigned char>(text[0]);
+  if (first < 32 || first == 127) return true;
+  return first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr size_t k_longest = 24;
   std::string result = "\"";
-  for (const char c : text.substr(0, k_longest)) result += c >= 32 && c < 127 ? c : '?';
-  return result + (text.size() > k_longest ? "...\"" : "\"");
+  for (size_t shown = 0; !text.empty() && shown < k_longest; ++shown) {
+    const size_t length = utf8_length(text);
+    if (length == 0 || is_control(text)) {
+      result += '?';
+    } else {
+      result += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return result + (text.empty() ? "\"" : "...\"");
 }
 
 std::string printable(std::string_view text) {
   constexpr const char* k_hex = "0123456789abcdef";
   std::string result;
-  for (const char c : text) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    if (c == '\n') {
+  while (!text.empty()) {
+    const size_t length = utf8_length(text);
+    const unsigned char byte = static_cast<unsigned char>(text[0]);
+    const bool shown = length > 0 && !is_control(text);
+    if (shown) {
+      result += text.substr(0, length);
+    } else if (byte == '\n') {
       result += "\\n";
-    } else if (c == '\r') {
+    } else if (byte == '\r') {
       result += "\\r";
-    } else if (c == '\t') {
+    } else if (byte == '\t') {
       result += "\\t";
-    } else if (byte < 32 || byte == 127) {
-      result += {'\\', 'x', k_hex[byte >> 4], k_hex[byte & 15]};
     } else {
-      result += c;
+      result += {'\\', 'x', k_hex[byte >> 4], k_hex[byte & 15]};
     }
+    text.remove_prefix(shown ? length : 1);
   }
   return result;
 }

@@ -37,10 +37,17 @@ bool parse_integer(std::string_view text, int64_t* value);
 void append_double(std::string& text, double value);
 
 std::string lower_case(std::string_view text);
+
+// The length of the well-formed UTF-8 sequence at the start of the text, 0 if there is none. The
+// ranges of the second byte keep out overlong forms, surrogates and what lies beyond U+10FFFF.
+size_t utf8_length(std::string_view text);
+
+// At most 24 characters of the text; "?" stands for control characters and for bytes that are no
+// UTF-8.
 std::string in_quotes(std::string_view text);
 
-// As complaints name the file: control characters, line ends among them, become "\n" or "\x1b", so
-// that a message stays one line.
+// As complaints name the file: control characters, line ends among them, and bytes that are no
+// UTF-8 become "\n" or "\x1b", so that a message stays one line of text.
 std::string printable(std::string_view text);
 
 // Walks over the lines of a text and splits each into columns.

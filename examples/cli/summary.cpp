@@ -100,6 +100,11 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
     text += counted(failed, "patch was", "patches were") + " left out, the report says why\n";
   }
   if (found > 0) text += counted(found, "border was", "borders were") + " found and left open\n";
+  if (result.report.inverted_triangles > 0) {
+    text += counted(result.report.inverted_triangles, "triangle is", "triangles are") +
+            " inverted: the surface is folded at patch " +
+            std::to_string(result.report.first_inverted_patch) + "\n";
+  }
   if (result.flow != nullptr) text += flow_lines(result.flow->view, arguments.voids);
   text += spacing_line(surface, result.report);
   if (!network.ignored_columns.empty()) {

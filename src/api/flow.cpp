@@ -197,7 +197,8 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   TRY(context.enter(Stage::curves));
   TRY(smooth_polylines(context, polylines, flow_smoothing_of(options, scale), input.position.span(),
                        made->normal.span(), &made->noise));
-  TRY(flow::build_flow(context, polylines, inside, &made->flow));
+  const Status status = flow::build_flow(context, polylines, inside, &made->flow);
+  TRY(explain_rounding(status, made->given.span(), made->flow.step));
   TRY(list_voids(made->flow.persistence, Scale(made->exponent), &made->tables.voids));
   wsk_flow_view& view = made->view;
   view.sample_count = static_cast<uint32_t>(made->flow.samples.position.size());
@@ -339,7 +340,7 @@ static Status make_flow_surface(Context& context, const wsk_options& options,
       surface_from_flow(context, flow->flow, reconstruction, settings, &surface, &outcome);
   surface.counts.noise = flow->noise;
   report_counts(surface.counts, unscale, report);
-  TRY(status);
+  TRY(explain_rounding(status, flow->given.span(), settings.spacing));
   TRY(tables.voids.copy(flow->tables.voids.span()));
   for (wsk_void& v : tables.voids) v.chosen = 0;
   for (const uint32_t v : reconstruction.topology.chosen) tables.voids[v].chosen = 1;

@@ -45,4 +45,8 @@ Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal)
 // The power of two that brings the extent of the points to one half up to one.
 Status find_scale(Span<const Vec3> points, int* exponent);
 
+// Far from the origin doubles are coarse, and what then fails does not look like it: the sentence of
+// such a status becomes one that says so. `spacing`: zero if it is not known yet.
+Status explain_rounding(const Status& status, Span<const Vec3> positions, double spacing);
+
 }  // namespace wireskin::api

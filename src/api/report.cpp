@@ -46,6 +46,8 @@ void report_counts(const Counts& counts, const Scale& unscale, wsk_report* repor
   report->ambiguous_patches = counts.ambiguous_patches;
   report->first_ambiguous_patch = counts.first_ambiguous_patch;
   report->found_borders = counts.found_borders;
+  report->inverted_triangles = counts.inverted_triangles;
+  report->first_inverted_patch = counts.first_inverted_patch;
 }
 
 void report_costs(Context& context, wsk_report* report) {

@@ -27,6 +27,24 @@ static bool sides_differ(const Samples& samples, size_t before, size_t i) {
          lies_across(a, direction_at(samples, before)) && lies_across(b, direction_at(samples, i));
 }
 
+// The unit direction across the curve within the surface.
+static Vec3 conormal(const Samples& samples, size_t i) {
+  return unit(cross(direction_at(samples, i), samples.normal[i]));
+}
+
+// Whether the curve bends over between two samples, as at the tip of a thin section that has no
+// sample there: it turns back, both normals lie along the chord, out of the tip or both into it,
+// and conormals, which bending leaves alone, agree but for a twist.
+static bool bends_over(const Samples& samples, size_t before, size_t i) {
+  constexpr double k_least_along = 0.5, k_twist_cosine = 0.5;
+  const Vec3 chord = unit(samples.position[i] - samples.position[before]);
+  const double from = dot(samples.normal[before], chord), to = dot(samples.normal[i], chord);
+  const bool turns_back = dot(direction_at(samples, before), direction_at(samples, i)) < 0.0;
+  return turns_back && from * to < 0.0 && std::fabs(from) > k_least_along &&
+         std::fabs(to) > k_least_along &&
+         dot(conormal(samples, before), conormal(samples, i)) > k_twist_cosine;
+}
+
 Status check_samples(const Samples& samples) {
   const size_t n = samples.position.size();
   if (n < (samples.closed ? 3u : 2u)) {
@@ -54,8 +72,12 @@ Status check_samples(const Samples& samples) {
     if (dot(samples.normal[i], samples.normal[before]) < k_least_normal_cosine) {
       return fail_sample(
           Code::inconsistent_normals,
-          "the normal turns by more than 120 degrees from the sample before: samples are "
-          "too far apart there, or a sign is wrong",
+          bends_over(samples, before, i)
+              ? "the curve turns round a tip between the sample before and this one, by more than "
+                "120 degrees, and has no sample there: give it one at the tip"
+              : "the normal turns by more than 120 degrees from the sample before, and the curve "
+                "does not turn with it: samples are too far apart there or, if only signs are "
+                "wrong, the option orient makes them agree",
           i);
     }
   }

@@ -6,6 +6,14 @@
 
 namespace wireskin::flow {
 
+// So many samples have more tetrahedra than they are; known before any is made.
+static Status check_sample_count(const Arcs& arcs, double step, uint32_t most_tets) {
+  double samples = 0.0;
+  for (uint32_t a = 0; a < arcs.size(); ++a) samples += arcs.length_of(a) / step;
+  if (samples < most_tets) return {};
+  return fail(Code::too_large, "the step is too small for the curves");
+}
+
 Status build_flow(Context& context, const Polylines& polylines, const FlowOptions& options,
                   Flow* flow) {
   TRY(context.enter(Stage::curves));
@@ -15,6 +23,7 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   if (!(options.sampling > 0.0) && options.spacing > 0.0) {
     flow->step = smaller(flow->step, options.spacing);
   }
+  TRY(check_sample_count(flow->arcs, flow->step, options.complex.most_tets));
   if (options.bend) TRY(bend_arcs(context, flow->step, &flow->arcs));
   TRY(sample_arcs(context, flow->arcs, flow->step, &flow->samples));
   TRY(find_tangents(flow->samples, &flow->tangents));

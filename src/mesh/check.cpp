@@ -1,5 +1,6 @@
 #include "mesh/check.h"
 
+#include "mesh/inverted.h"
 #include "num/minmax.h"
 
 namespace wireskin::mesh {
@@ -117,6 +118,13 @@ static Status check_folds(const Expectations& mesh, Span<const uint32_t> twins) 
   return {};
 }
 
+static Status check_inverted(Context& context, const Expectations& mesh) {
+  Inverted inverted;
+  TRY(find_inverted(context, mesh.position, mesh.triangle, mesh.patch, &inverted));
+  if (inverted.count == 0) return {};
+  return bad_triangle("the triangle is inverted: it faces against those round it", inverted.first);
+}
+
 Status check(Context& context, const Expectations& mesh) {
   Array<uint32_t> twins(context);
   Topology topology(context);
@@ -131,7 +139,9 @@ Status check(Context& context, const Expectations& mesh) {
   }
   TRY(check_positions(mesh.position));
   TRY(check_shapes(mesh));
-  return mesh.may_fold ? Status{} : check_folds(mesh, twins.span());
+  if (mesh.may_fold) return {};
+  TRY(check_folds(mesh, twins.span()));
+  return check_inverted(context, mesh);
 }
 
 }  // namespace wireskin::mesh

@@ -6,7 +6,7 @@
 // form more than one fan, or that have none; edges of curves that are no edge of the mesh; a wrong
 // Euler characteristic; coordinates that are not finite; triangles without area, or whose height is
 // below k_least_height of their longest edge; triangles that face against their patch's normal;
-// neighbours in one patch that are folded onto each other.
+// neighbours in one patch that are folded onto each other; inverted triangles (mesh/inverted.h).
 // Out: ok, or index_out_of_range, not_a_number or bad_mesh with the vertex or triangle in the
 // place; for a missing edge its first end is the vertex. Cost: O(vertices + triangles + edges).
 #pragma once
@@ -27,7 +27,8 @@ struct Expectations {
   Span<const uint32_t> patch = {};     // of each triangle; empty: one patch
   Span<const Vec3> patch_normal = {};  // which way its triangles face, zero: not known; or empty
   const int32_t* euler_characteristic = nullptr;  // null: not known
-  bool may_fold = false;  // no look at folds: where the curves themselves have a cusp
+  // No look at folds and inverted triangles: where the curves themselves have a cusp.
+  bool may_fold = false;
 };
 
 Status check(Context& context, const Expectations& mesh);

@@ -1,5 +1,6 @@
 #include "network/border_check.h"
 
+#include "base/sort.h"
 #include "network/linking.h"
 
 namespace wireskin::network {
@@ -20,6 +21,27 @@ static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, con
   return dot(gap, gap);
 }
 
+static double along_axis(const Vec3& p, uint32_t axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+static uint32_t widest_axis(Span<const Vec3> position) {
+  uint32_t widest = 0;
+  double most = -1.0;
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Vec3& p : position) {
+      const double at = along_axis(p, axis);
+      low = at < low ? at : low;
+      high = at > high ? at : high;
+    }
+    if (!(high - low > most)) continue;
+    most = high - low;
+    widest = axis;
+  }
+  return widest;
+}
+
 // Fails where two edges without a common end touch, to within a millionth of the border's length.
 static Status find_crossing(const Border& border, double perimeter) {
   constexpr double k_touch = 1e-6;
@@ -31,10 +53,23 @@ static Status find_crossing(const Border& border, double perimeter) {
       next[i] = next_on_border(border, l, i);
     }
   }
-  for (uint32_t i = 0; i < border.size(); ++i) {
+  // Along the axis in which the border is widest an edge meets few others.
+  const uint32_t axis = widest_axis(position);
+  Array<uint32_t> order(border.vertex.context());
+  TRY(order.resize(border.size()));
+  for (uint32_t i = 0; i < border.size(); ++i) order[i] = i;
+  const auto low = [&](uint32_t i) {
+    const double from = along_axis(position[i], axis), to = along_axis(position[next[i]], axis);
+    return from < to ? from : to;
+  };
+  sort(order.span(),
+       [&](uint32_t a, uint32_t b) { return low(a) != low(b) ? low(a) < low(b) : a < b; });
+  for (uint32_t k = 0; k < order.size(); ++k) {
+    const uint32_t i = order[k];
     const Vec3 &a = position[i], &b = position[next[i]];
-    const double own = length(b - a);
-    for (uint32_t j = i + 1; j < border.size(); ++j) {
+    const double own = length(b - a), beyond = low(i) + own + k_touch * perimeter;
+    for (uint32_t m = k + 1; m < order.size() && low(order[m]) <= beyond; ++m) {
+      const uint32_t j = order[m];
       if (j == next[i] || next[j] == i) continue;
       const Vec3 &c = position[j], &d = position[next[j]];
       if (length(c - a) > own + length(d - c) + k_touch * perimeter) continue;
@@ -42,7 +77,7 @@ static Status find_crossing(const Border& border, double perimeter) {
         return fail(Code::patch_folded, "the border of the patch crosses itself");
       }
     }
-    if (i % 64 == 63) TRY(next.context().checkpoint());
+    if (k % 64 == 63) TRY(next.context().checkpoint());
   }
   return {};
 }

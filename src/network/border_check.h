@@ -4,7 +4,7 @@
 // or for crossings (network/linking.h).
 //
 // In: the loops of a border with their normals (zero: unknown). Out: a status without place.
-// O(n^2), with cheap rejections.
+// O(n^2), though mostly for network/linking.h.
 #pragma once
 
 #include "network/border.h"

@@ -172,7 +172,11 @@ Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, 
     if (closed[c] && first != last) continue;
     for (int end = 0; end < (first == last ? 1 : 2); ++end) {
       const uint32_t sample = end == 0 ? first : last;
-      if (node_of_sample[sample] != k_none) continue;
+      if (node_of_sample[sample] != k_none) {
+        Node& known = (*nodes)[node_of_sample[sample]];
+        if (first == last && known.point_curve == k_none) known.point_curve = c;
+        continue;
+      }
       node_of_sample[sample] = static_cast<uint32_t>(nodes->size());
       Node node = {samples.position[sample], samples.normal[sample], samples.number[sample]};
       if (!samples.sharp.empty() && samples.sharp[c]) {
@@ -180,6 +184,7 @@ Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, 
         TRY(self.push(sample));
         merge_sides(samples, self.span(), &node);
       }
+      if (first == last) node.point_curve = c;
       TRY(nodes->push(node));
     }
   }

@@ -15,10 +15,11 @@ namespace wireskin::network {
 
 struct Node {
   Vec3 position;
-  Vec3 normal;          // unit; zero where no normal is known yet
-  uint32_t number;      // the caller's
-  bool crease = false;  // sharp curves pass here
-  bool certain = true;  // all normals here are known
+  Vec3 normal;                    // unit; zero where no normal is known yet
+  uint32_t number;                // the caller's
+  bool crease = false;            // sharp curves pass here
+  bool certain = true;            // all normals here are known
+  uint32_t point_curve = k_none;  // the least curve of one sample that lies here
 };
 
 // The samples of all curves one after the other; curve c has start[c] .. start[c + 1).
@@ -37,7 +38,7 @@ Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* n
                   Array<uint32_t>* node_of_sample);
 
 // Ends of open curves that nothing else meets, and points (curves of one sample), become nodes too,
-// without a number and behind all others. `closed`: of each curve.
+// without a number and behind all others; each node learns of its points. `closed`: of each curve.
 Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
                       Span<uint32_t> node_of_sample);
 

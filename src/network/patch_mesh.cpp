@@ -6,7 +6,9 @@
 #include "network/border_check.h"
 #include "network/patch_in_space.h"
 #include "network/plane.h"
+#include "network/size_limit.h"
 #include "num/minmax.h"
+#include "num/predicates.h"
 #include "planar/polygon_mesh.h"
 
 namespace wireskin::network {
@@ -83,7 +85,7 @@ static bool may_be_left_out(const Status& status) {
 
 // Adds the place to what went wrong with a patch: its number and a curve of its border.
 static Status at_patch(Status status, const Network& network, uint32_t patch) {
-  if (!may_be_left_out(status)) return status;
+  if (!may_be_left_out(status) && status.code != Code::too_large) return status;
   status.place.patch = patch;
   if (status.place.curve == k_none) {
     status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
@@ -368,6 +370,19 @@ static Status mesh_in_space(const CurveVertices& vertices, double spacing, Patch
   return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }
 
+#ifdef WIRESKIN_DEBUG
+// In its plane the mesh is exact: no triangle is inverted.
+static bool runs_counter_clockwise(const planar::PolygonMesh& mesh) {
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    if (!(orient2d(mesh.points[mesh.triangles[t]], mesh.points[mesh.triangles[t + 1]],
+                   mesh.points[mesh.triangles[t + 2]]) > 0.0)) {
+      return false;
+    }
+  }
+  return true;
+}
+#endif
+
 // Points in line within rounding have a triangle in the plane, where they are rounded again, and
 // none in space. The bound is that of every mesh, with room for splits of the chords.
 static Status check_areas(const PatchScratch& scratch, Span<const uint32_t> triangle) {
@@ -400,10 +415,12 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
   if (status.ok()) status = check_areas(*scratch, scratch->planar.triangles.span());
   if (status.ok()) {
+    WIRESKIN_ASSERT(runs_counter_clockwise(scratch->planar));
     TRY(builder->mesh->way.push(PatchWay::plane));
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
   if (!may_be_meshed_otherwise(status)) return status;
+  TRY(check_border_size(border, spacing));
   TRY(check_border(border));
   TRY(mesh_in_space(vertices, spacing, scratch));
   TRY(check_areas(*scratch, scratch->spatial.triangle.span()));

@@ -111,11 +111,9 @@ Status resample(const curves::Curves& curves, Span<const Node> nodes, const Netw
     TRY(place_vertices(curves, network, s, vertices));
     if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
   }
-  for (uint32_t c = 0; c < curves.size(); ++c) {  // points
-    const curves::Curve curve = curves[c];
-    if (curve.node.size() != 1 || curve.node[0] >= nodes.size()) continue;
-    uint32_t& of = vertices->curve[curve.node[0]];
-    if (of > c) of = c;
+  // The curves' own numbers of nodes would not do: they hold before patches are dropped.
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (vertices->curve[i] > nodes[i].point_curve) vertices->curve[i] = nodes[i].point_curve;
   }
   return curves.right.empty() ? Status{} : resample_sides(curves, network, vertices);
 }

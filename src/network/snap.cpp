@@ -30,8 +30,7 @@ class Snapper {
         component_(beads->context()),
         best_(beads->context()),
         stamp_(beads->context()),
-        queue_(beads->context()),
-        parts_(beads->context()) {}
+        queue_(beads->context()) {}
 
   Status run(SnapResult* result);
 
@@ -50,7 +49,7 @@ class Snapper {
   Status unite(const Meeting& meeting, SnapResult* result);
   Status join(const Approach& approach, bool beside, SnapResult* result);
   Status join_all(Span<const Approach> approaches, const SnapPlan& plan, SnapResult* result);
-  Status count_open(Span<const Approach> approaches, uint32_t* open);
+  Status count_open(Span<const Approach> approaches, Span<const uint8_t> beside, uint32_t* open);
 
   double tolerance_;
   Beads& beads_;
@@ -63,7 +62,6 @@ class Snapper {
   Array<uint32_t> queue_;
   uint32_t now_ = 0;
   uint32_t steps_ = 0;
-  DisjointSets parts_;  // of the components before snapping
 };
 
 double Snapper::node_reach(double gap) const {
@@ -177,13 +175,11 @@ Status Snapper::unite(const Meeting& m, SnapResult* result) {
   if (beads_.is_end(x) && beads_.is_end(z)) snap.kind = SnapKind::end_end;
   TRY(result->snaps.push(snap));
   beads_.unite(x, z);
-  parts_.unite(component_[beads_.curve_of(x)], component_[beads_.curve_of(z)]);
   return {};
 }
 
-// Curves that pass side by side are joined only where nothing else joins their components. Where
-// curves cross they share a point, however near the ways round by other curves are; so do an end
-// and the curve on which it lies.
+// Curves that pass side by side are joined only at an end. Where curves cross they share a point,
+// however near the ways round by other curves are; so do an end and the curve on which it lies.
 Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) {
   const double reach = node_reach(approach.distance);
   const Meeting m = meet(approach, reach);
@@ -191,8 +187,7 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
   if (!(distance <= tolerance_)) return {};
   const uint32_t a = component_[beads_.curve[m.a.edge]], b = component_[beads_.curve[m.b.edge]];
   if (m.free_ends == 0) {
-    if (a == b && distance > crossing()) return {};
-    if (beside && parts_.find(a) == parts_.find(b)) return {};
+    if (beside || (a == b && distance > crossing())) return {};
   }
   bool together = false;
   const bool on_it = exact_ && m.free_ends == 1 && distance <= k_exact * tolerance_;
@@ -211,15 +206,16 @@ Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
-      if (plan.pass[k] == now) TRY(join(approaches[k], now == SnapPass::beside, result));
+      if (plan.pass[k] == now) TRY(join(approaches[k], plan.beside[k] != 0, result));
       if (k % 64 == 63) TRY(context().checkpoint());
     }
   }
   return {};
 }
 
-// Pairs of components that come nearer to each other than the tolerance.
-Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
+// Pairs of components that come nearer to each other than the tolerance, and not side by side.
+Status Snapper::count_open(Span<const Approach> approaches, Span<const uint8_t> beside,
+                           uint32_t* open) {
   struct Pair {
     uint32_t a, b;
   };
@@ -230,7 +226,9 @@ Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
     joined.unite(beads_.curve_of(b), beads_.curve_of(beads_.bead[b].ring));
   }
   TRY(pairs.reserve(approaches.size()));
-  for (const Approach& approach : approaches) {
+  for (size_t k = 0; k < approaches.size(); ++k) {
+    const Approach& approach = approaches[k];
+    if (beside[k]) continue;
     const uint32_t a = joined.find(beads_.curve[approach.a.edge]);
     const uint32_t b = joined.find(beads_.curve[approach.b.edge]);
     if (a != b) pairs.push_reserved(a < b ? Pair{a, b} : Pair{b, a});
@@ -259,14 +257,13 @@ Status Snapper::run(SnapResult* result) {
   TRY(beads_.string_samples(approaches.size()));
   TRY(best_.assign(beads_.room(), 0.0));
   TRY(stamp_.assign(beads_.room(), 0));
-  TRY(parts_.reset(counts.components));
-  TRY(count_open(approaches.span(), &result->open_before));
   SnapPlan plan(context());
   TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), &plan));
+  TRY(count_open(approaches.span(), plan.beside.span(), &result->open_before));
   exact_ = plan.exact;
   TRY(join_all(approaches.span(), plan, result));
   beads_.unite_close(k_one_node * tolerance_);
-  return count_open(approaches.span(), &result->open_after);
+  return count_open(approaches.span(), plan.beside.span(), &result->open_after);
 }
 
 Status snap_wires(double tolerance, Wires* wires, SnapResult* result) {

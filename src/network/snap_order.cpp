@@ -2,11 +2,6 @@
 
 namespace wireskin::network {
 
-bool run_along(const Vec3& a, const Vec3& b) {
-  constexpr double k_sine = 0.17;
-  return length(cross(a, b)) < k_sine;
-}
-
 // Whether an end of a curve clearly meets the other curve.
 static bool ends_on(const Wires& wires, Span<const uint32_t> curve, double near,
                     const Approach& approach) {
@@ -39,7 +34,9 @@ static bool is_beside(const Beads& beads, const Approach& approach) {
 
 Status plan_snaps(const Beads& beads, double tolerance, bool complete,
                   Span<const Approach> approaches, SnapPlan* plan) {
+  Array<Branch> branches(beads.context());
   TRY(plan->pass.resize(approaches.size()));
+  TRY(plan->beside.assign(approaches.size(), 0));
   size_t others = 0, exact = 0;
   for (size_t k = 0; k < approaches.size(); ++k) {
     const Approach& approach = approaches[k];
@@ -47,8 +44,12 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
     const bool beside = !touches && is_beside(beads, approach);
     const bool ends = ends_on(beads.wires, beads.curve.span(), k_crossing * tolerance, approach);
     plan->pass[k] = beside ? SnapPass::beside : ends ? SnapPass::settled : SnapPass::crosses;
+    bool meets = touches;
+    if (!touches && !beside) TRY(cross_or_end(beads, approach, &branches, &meets));
+    plan->beside[k] = !meets;
     others += !beside;
     exact += touches;
+    if (k % 1024 == 1023) TRY(beads.context().checkpoint());
   }
   plan->exact = !complete && 4 * exact >= 3 * others;
   for (size_t k = 0; k < plan->pass.size() && !plan->exact; ++k) plan->pass[k] = SnapPass::crosses;

@@ -2,6 +2,7 @@
 
 #include "curves/distance.h"
 #include "mesh/curvature.h"
+#include "mesh/inverted.h"
 #include "smooth/fair.h"
 
 namespace wireskin {
@@ -42,6 +43,11 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Span<cons
   TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
                             surface->patch.span(), on_curve, !surface->curve_edge.empty(),
                             &counts->dihedral));
+  mesh::Inverted inverted;
+  TRY(mesh::find_inverted(context, surface->position.span(), surface->triangle.span(),
+                          surface->patch.span(), &inverted));
+  counts->inverted_triangles = inverted.count;
+  if (inverted.count > 0) counts->first_inverted_patch = surface->patch[inverted.first];
   return context.progress(0.8);
 }
 

@@ -301,11 +301,32 @@ static Status judge_mesh(Context& context, const FlowSettings& settings, bool me
   return {};
 }
 
+// As network/size_limit.h has it, but here the areas are known.
+static Status check_flow_vertices(const flow::Patches& patches, double spacing) {
+  constexpr double k_most_vertices = 67108864.0;  // 2^26
+  if (!(spacing > 0.0)) return {};
+  double sum = 0.0, most = 0.0;
+  Place place;
+  for (uint32_t p = 0; p < patches.size(); ++p) {
+    const double vertices = patches.facts[p].area / (spacing * spacing);
+    sum += vertices;
+    if (!(vertices > most)) continue;
+    most = vertices;
+    place.patch = p;
+  }
+  if (sum < k_most_vertices) return {};
+  return fail(Code::too_large,
+              "the spacing is too small for the network: its surface would have more than 2^26 "
+              "vertices",
+              place);
+}
+
 Status surface_from_flow(Context& context, const flow::Flow& flow,
                          const flow::Reconstruction& reconstruction, const FlowSettings& settings,
                          Surface* surface, FlowOutcome* outcome) {
   {
     flow::FlowMesh mesh(context);
+    TRY(check_flow_vertices(reconstruction.patches, settings.spacing));
     TRY(flow::mesh_patches(context, flow, reconstruction, settings.spacing, &mesh));
     outcome->held_back = mesh.held_back;
     outcome->crossings = mesh.crossings;

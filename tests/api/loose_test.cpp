@@ -534,6 +534,27 @@ TEST_CASE("partial: patches that are left touch at a node, each with a vertex of
   CHECK(at_middle == 2);
 }
 
+TEST_CASE("partial: points keep their curves when nodes of other patches go") {
+  for (const int left_out : {0, 3}) {
+    CAPTURE(left_out);
+    Net net = four_squares({left_out});
+    net.point(left_out == 0 ? 0.5 : 3.5, left_out == 0 ? 1.5 : 2.5, 0,
+              true);  // goes with its patch
+    net.point(3, 1, 0.1, true);
+    net.point(1, 3, 0.2, false);
+    const Built b(net, true);
+    REQUIRE_MESSAGE(b.status == WSK_OK, std::string(b.report.sentence));
+    CHECK(b.report.failed_patches == 1);
+    CHECK(b.passes(3, 1, 0.1, 8));
+    CHECK(b.passes(1, 3, 0.2, 9));
+    // Whoever is on no curve is free.
+    uint32_t free = 0;
+    for (uint32_t v = 0; v < b.view.vertex_count; ++v) free += b.view.vertex_curve[v] == WSK_NONE;
+    CHECK(free == b.report.free_vertices);
+    for (uint32_t v = 0; v < b.view.vertex_count; ++v) CHECK(b.view.vertex_curve[v] + 1 != 8);
+  }
+}
+
 TEST_CASE("partial: an inner curve that is tagged as boundary fails the patches at it") {
   Net net = four_squares({});
   Line half = net.lines[3];  // the vertical one in the middle: its lower half is tagged

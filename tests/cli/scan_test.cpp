@@ -145,6 +145,18 @@ TEST_CASE("comments") {
 TEST_CASE("complaints quote in printable and short form") {
   CHECK(in_quotes("a\nb\xff") == "\"a?b?\"");
   CHECK(in_quotes(std::string(100, 'x')).size() < 40);
+  // Text of any language is quoted whole and cut between characters; what is no text is not.
+  CHECK(in_quotes("Kr\xC3\xBCmmung \xE6\x9B\xB2\xE7\xB7\x9A \xF0\x9F\x8C\x80") ==
+        "\"Kr\xC3\xBCmmung \xE6\x9B\xB2\xE7\xB7\x9A \xF0\x9F\x8C\x80\"");
+  std::string long_text, cut;
+  for (int k = 0; k < 30; ++k) long_text += "\xC3\xA9";
+  for (int k = 0; k < 24; ++k) cut += "\xC3\xA9";
+  CHECK(in_quotes(long_text) == "\"" + cut + "...\"");
+  CHECK(in_quotes("a\xC3") == "\"a?\"");                    // cut off
+  CHECK(in_quotes("\xC0\xAF\xED\xA0\x80") == "\"?????\"");  // overlong, surrogate
+  CHECK(in_quotes("\xC2\x9B"
+                  "1m") == "\"?1m\"");  // a control sequence
+  CHECK(printable("\xC3\xA9\n\x1b\xe9\xC2\x9B") == "\xC3\xA9\\n\\x1b\\xe9\\xc2\\x9b");
   LineScanner scanner("dir/file.net", "\n1 zwei\n", false);
   REQUIRE(scanner.next());
   CHECK(failure_of([&] { (void)scanner.number(1); }) == "dir/file.net:2: \"zwei\" is not a number");

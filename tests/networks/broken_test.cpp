@@ -142,3 +142,78 @@ TEST_CASE("normals at every tenth sample are filled in") {
   }
   CHECK(worst < 1e-12);  // on the unit sphere the normal is the point
 }
+
+namespace {
+
+// Curves of a bumpy square: `across` lines each way that miss each other by `gap`, and in each cell
+// a hole with `corners` straight sides that comes within `room` of the lines.
+raw::Curves grid_with_holes(int across, double gap, int corners, double room, double turn) {
+  raw::Curves curves;
+  const auto add = [&curves](double x, double y, double off) {
+    const double z = 0.2 * std::sin(3 * x) * std::cos(2 * y);
+    Point normal = {-0.6 * std::cos(3 * x) * std::cos(2 * y),
+                    0.4 * std::sin(3 * x) * std::sin(2 * y), 1.0};
+    normal = (1.0 / networks::length(normal)) * normal;
+    const Point at = Point{x, y, z} + off * normal;
+    curves.back().positions.insert(curves.back().positions.end(), at.begin(), at.end());
+    curves.back().normals.insert(curves.back().normals.end(), normal.begin(), normal.end());
+    curves.back().nodes.push_back(WSK_NONE);
+  };
+  const int cells = across - 1, edges = 7 * cells;
+  for (int line = 0; line < 2 * across; ++line) {
+    const double at = static_cast<double>(line / 2) / cells;
+    curves.push_back({});
+    curves.back().boundary = line < 2 || line >= 2 * cells;
+    for (int k = 0; k <= edges; ++k) {
+      const double t = static_cast<double>(k) / edges;
+      line % 2 == 0 ? add(at, t, 0.0) : add(t, at, gap);
+    }
+  }
+  const double radius = 0.5 / cells - room;
+  for (int cell = 0; cell < cells * cells; ++cell) {
+    curves.push_back({});
+    curves.back().boundary = curves.back().closed = true;
+    const auto corner = [&](int k, double* x, double* y) {
+      const double a = turn - 6.283185307179586 * k / corners;
+      *x = (cell / cells + 0.5) / cells + radius * std::cos(a);
+      *y = (cell % cells + 0.5) / cells + radius * std::sin(a);
+    };
+    const int steps = 24 / corners;
+    for (int k = 0; k < corners * steps; ++k) {
+      double ax, ay, bx, by;
+      corner(k / steps, &ax, &ay), corner(k / steps + 1, &bx, &by);
+      const double t = static_cast<double>(k % steps) / steps;
+      add((1 - t) * ax + t * bx, (1 - t) * ay + t * by, 0.0);
+    }
+  }
+  return curves;
+}
+
+}  // namespace
+
+TEST_CASE("holes beside the borders of their patches stay holes, however near they are") {
+  const int across = 7, cells = (across - 1) * (across - 1);
+  Random random(7);
+  for (const double gap : {0.0, 0.002, 0.008}) {
+    for (const int corners : {3, 4, 6, 12}) {
+      for (const double room : {0.0015, 0.006, 0.04}) {
+        CAPTURE(gap);
+        CAPTURE(corners);
+        CAPTURE(room);
+        const raw::Curves curves = grid_with_holes(across, gap, corners, room, 0.3 * random());
+        for (const bool pieces : {false, true}) {
+          const raw::Curves given = pieces ? in_pieces(curves, random) : curves;
+          const raw::Network network = raw::connect(given, 0.012);
+          const wsk_network_view view = raw::view_of(network);
+          CHECK(view.after.components == 1u + static_cast<uint32_t>(cells));
+          CHECK(view.after.open_gaps == 0);
+          const Built built = build(view.curves, view.curve_count, 0.02);
+          INFO(built.sentence);
+          CHECK(built.status == WSK_OK);
+          CHECK(built.patches == static_cast<uint32_t>(cells));
+          CHECK(built.euler == 1 - cells);
+        }
+      }
+    }
+  }
+}

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <ctime>
+#include <string>
 
 #include "support/meshes.h"
 
@@ -299,6 +300,56 @@ TEST_CASE("curve: opposite normals that cancel out give none") {
   p.normal[1] = {0, 0, -1};  // what check_samples would refuse
   const Fitted f(p);
   CHECK(point_at(f.curves[0], 0, 1, 0.5).normal == Vec3{});
+}
+
+// The thin ellipse of half axes 1 and `thickness`, without samples at its tips; normals point out.
+static Polyline thin_section(double thickness, size_t n) {
+  Polyline p;
+  p.closed = true;
+  for (size_t i = 0; i < n; ++i) {
+    const double a = 2 * k_pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    p.add({std::cos(a), thickness * std::sin(a), 0}, {thickness * std::cos(a), std::sin(a), 0});
+  }
+  return p;
+}
+
+TEST_CASE("curve: a tip without a sample is told from a wrong sign, and one sample mends it") {
+  const auto says = [](const Polyline& p, const char* what) {
+    const Status status = p.check();
+    CHECK(status.code == Code::inconsistent_normals);
+    return std::string(status.sentence).find(what) != std::string::npos;
+  };
+  for (const double thickness : {0.05, 0.03, 0.01}) {
+    for (const size_t n : {12u, 24u}) {
+      Polyline p = thin_section(thickness, n);
+      CHECK(says(p, "give it one at the tip"));
+      CHECK(p.check().place.sample == 0);
+      Polyline inwards = p;
+      for (Vec3& normal : inwards.normal) normal = -1.0 * normal;
+      CHECK(says(inwards, "give it one at the tip"));
+      p.add({1, 0, 0}, {1, 0, 0});
+      CHECK(says(p, "give it one at the tip"));
+      CHECK(p.check().place.sample == n / 2);  // the other tip
+      const auto at = static_cast<std::ptrdiff_t>(n / 2);
+      p.position.insert(p.position.begin() + at, {-1, 0, 0});
+      p.normal.insert(p.normal.begin() + at, {-1, 0, 0});
+      p.node.push_back(k_none);
+      CHECK(p.check().ok());
+    }
+  }
+  // A wrong sign away from the tips.
+  Polyline p = thin_section(0.04, 24);
+  p.position.erase(p.position.begin());
+  p.normal.erase(p.normal.begin());
+  p.closed = false;
+  p.node.pop_back();
+  p.normal[5] = -1.0 * p.normal[5];
+  CHECK(says(p, "orient makes them agree"));
+  // Normals that turn while the curve does not.
+  Polyline q;
+  for (int k = 0; k < 6; ++k) q.add({1.0 * k, 0, 0}, {k < 3 ? 0.9 : -0.9, 0, 0.43});
+  CHECK(says(q, "does not turn with it"));
+  CHECK(q.check().place.sample == 3);
 }
 
 TEST_CASE("curve: many curves stand one after the other, at linear cost") {
