@@ -58,23 +58,4 @@ double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, dou
   return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
 }
 
-Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
-           Span<const uint8_t> hidden) {
-  Sight sight;
-  for (uint32_t i = 0; i < facing.size(); ++i) {
-    const Facing& f = facing[i];
-    if (hidden[i] || length(f.centre - p.position) - f.radius > sight.distance) continue;
-    for (const Probe& q : probes.part(f.first, f.count)) {
-      const Vec3 way = q.position - p.position;
-      const double chord = length(way);
-      if (!(chord < sight.distance) || chord == 0.0) continue;
-      const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
-      const double distance = chord * 4.0 / ((1.0 + out) * (1.0 + back));
-      if (!(out > 0.0 && back > 0.0 && distance < sight.distance)) continue;
-      sight = {i, distance};
-    }
-  }
-  return sight;
-}
-
 }  // namespace wireskin::network

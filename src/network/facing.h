@@ -1,8 +1,8 @@
 // Loops as those see them that ask what they face: thinned to places with their conormals, which
 // point into the patch along the surface.
 //
-// In: borders of patches. Out: places, the area of a band between two loops, and which loop a place
-// looks at. All take time in proportion to the places they compare.
+// In: borders of patches. Out: places, and the area of a band between two loops, in time in
+// proportion to the pairs of places.
 #pragma once
 
 #include "network/border.h"
@@ -32,17 +32,5 @@ Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reve
 // The area of a band from a's probes to the nearest ones of b, more where its conormals lead
 // elsewhere; negative where they do not lead there.
 double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, double least_cosine);
-
-// The patch that a place of a loop looks at, and how far along the surface that is.
-struct Sight {
-  uint32_t loop = k_none;
-  double distance = DBL_MAX;
-};
-
-// The nearest place whose conormal looks back: the way between two conormals that turn by a and b
-// from the chord is longer than it by about 2 / (1 + cosine) of either. Loops that are `hidden` do
-// not count.
-Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
-           Span<const uint8_t> hidden);
 
 }  // namespace wireskin::network
