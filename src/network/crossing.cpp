@@ -5,10 +5,10 @@
 namespace wireskin::network {
 
 // Sine of the least angle between two branches that go different ways.
-static constexpr double k_least_sine = 0.17;
+static constexpr double k_crossing_sine = 0.17;
 
 bool run_along(const Vec3& a, const Vec3& b) {
-  return length(cross(a, b)) < k_least_sine;
+  return length(cross(a, b)) < k_crossing_sine;
 }
 
 // The point that far along the curve from a place, or the end before it.

@@ -10,7 +10,7 @@ namespace wireskin::network {
 // A disc inside a loop that asks has at least this curvature.
 static constexpr double k_least_curvature = 2.0;
 // What is seen by fewer of a loop's places, or at a lower mean cosine, is not asked for.
-static constexpr double k_least_share = 0.1, k_least_cosine = 0.25;
+static constexpr double k_sight_share = 0.1, k_sight_cosine = 0.25;
 // Of the evidence: against joining, for a short way, for the loop's curvature, for what is spared.
 static constexpr double k_against = 0.45, k_for_way = 0.8, k_for_curvature = 0.5,
                         k_for_spared = 0.5;
@@ -202,7 +202,7 @@ static Status find_match(uint32_t l, Lookout* out) {
   for (uint32_t r : out->counted) {
     const Tally t = out->tally[r];
     out->tally[r] = Tally{};
-    if (t.share < k_least_share || t.cosine < k_least_cosine * t.share) continue;
+    if (t.share < k_sight_share || t.cosine < k_sight_cosine * t.share) continue;
     const double evidence = evidence_for(out, l, t);
     if (evidence > best->evidence) *best = {l, t.loop, evidence};
   }
