@@ -9,6 +9,9 @@
 // bilaplacian on the finished surface, as PREFIX.SIZE.K.csc with its .xy.vec and .patch.vec. Prints
 // tables of medians and ratios and writes them as JSON. Times are processor time of this process in
 // milliseconds; with --threads, of the wall clock.
+//
+// OpenBLAS falls back to kernels for SSE3 on processors younger than itself, which makes CHOLMOD a
+// third slower and the ratios too good: see OPENBLAS_VERBOSE=2, and set OPENBLAS_CORETYPE.
 #include <time.h>
 
 #include <algorithm>
