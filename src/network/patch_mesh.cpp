@@ -365,7 +365,10 @@ static Status mesh_in_space(const CurveVertices& vertices, double spacing, Patch
                 "no plane shows the patch without folds, and its border passes a point twice");
   }
   TRY(mesh_border_in_space(border, spacing, &scratch->spatial));
-  if (n != rim) TRY(at_local_vertex(inlay_patch(spacing, scratch), vertices, *scratch));
+  // A curve of a single edge from loop to loop brings no vertex.
+  if (n != rim || !scratch->inner_edge.empty()) {
+    TRY(at_local_vertex(inlay_patch(spacing, scratch), vertices, *scratch));
+  }
   TRY(scratch->place.copy(scratch->spatial.position.span()));
   return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }

@@ -105,6 +105,21 @@ TEST_CASE("patch_mesh: the coarsest networks have no vertices inside") {
   CHECK(c.topology.euler_characteristic == 2);
 }
 
+TEST_CASE("patch_mesh: a line of a single edge from loop to loop is an edge of the mesh") {
+  for (const double turn : {0.0, 0.125, 0.25}) {
+    CAPTURE(turn);
+    CurveNet net;
+    const auto on_tube = [](double angle, double z) {
+      const Vec3 n = {std::cos(2 * k_pi * angle), std::sin(2 * k_pi * angle), 0};
+      return std::make_pair(n + Vec3{0, 0, z}, n);
+    };
+    net.add(24, true, true, [&](double t) { return on_tube(t, -1); });
+    net.add(24, true, true, [&](double t) { return on_tube(t, 1); });
+    net.add(12, false, false, [&](double t) { return on_tube(turn * t, 2 * t - 1); });
+    check_mesh(net, 4.0, 0, 2);
+  }
+}
+
 TEST_CASE("patch_mesh: the free vertices follow the spacing") {
   Stages s(octant_net());
   REQUIRE(s.mesh_patches(0.5 * k_pi / 20));
