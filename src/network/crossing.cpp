@@ -68,6 +68,7 @@ static WirePlace settle(const Beads& beads, const WirePlace& place, double reach
 // Of one of the two places.
 struct Tip {
   uint32_t branches = 0;  // one: the curve ends there
+  uint32_t seen = 0;      // of these, not along the gap
   bool points = true;     // all branches lead away from the other curve
 };
 
@@ -81,6 +82,7 @@ static Status add_branch(const View& view, const Vec3& way, bool of_a, Array<Bra
     tip->points = tip->points && away;
     return {};
   }
+  ++tip->seen;
   const Vec3 direction = unit(seen);
   const double x = dot(direction, view.u), y = dot(direction, view.v);
   const double turn = y / (std::fabs(x) + std::fabs(y));
@@ -149,7 +151,9 @@ Status judge_contact(const Beads& beads, const Approach& approach, Array<Branch>
   if (count_changes(scratch->span()) >= 4) return {};
   for (const Branch& branch : *scratch) {
     Tip& tip = branch.of_a ? at_a : at_b;
-    tip.points = tip.points && (branch.away || !branch.along);
+    const Tip& other = branch.of_a ? at_b : at_a;
+    const bool leaves_line = !branch.along && other.seen == other.branches;
+    tip.points = tip.points && (branch.away || leaves_line);
   }
   *contact = at_a.points || at_b.points ? Contact::points : Contact::beside;
   return {};

@@ -166,3 +166,14 @@ TEST_CASE("crossing: two curves that meet in front of another one point to it") 
   CHECK(net.count(0.03, Contact::points) >= 1);
   CHECK(net.count(0.03) == 0);
 }
+
+TEST_CASE(
+    "crossing: a node on a curve that has crossed another one just before is not pointed to") {
+  // The second and the third are one line, cut a little beyond the first.
+  Judged net;
+  net.add(turned(line({-1, 0, 0}, {1, 0, 0}, 15)));
+  net.add(turned({{0.01, -1, 0}, {0.01, -0.5, 0}, {0.01, 0.01, 0.002}}));
+  net.add(turned({{0.01, 0.01, 0.002}, {0.01, 0.5, 0}, {0.01, 1, 0}}));
+  CHECK(net.count(0.03, Contact::points) == 0);
+  CHECK(net.count(0.03, Contact::beside) >= 1);
+}
