@@ -629,17 +629,16 @@ typedef struct wsk_network_view {
  * the same place. Fragments become curves through points at which two ends meet, unless there is a
  * corner; closed curves are recognised. Then curves that come nearer to each other than
  * options.snap are joined, nearest first: ends to ends, ends to the inside of curves, and the
- * insides of curves where they cross, seen along the gap between them, or touch, to a twentieth of
- * the tolerance. Curves that pass side by side stay apart, however near: a hole beside the border
- * of its patch, two parallel ones, a corner that points to another curve. Insides of one component
- * are joined at a quarter of the tolerance only, or at a hundredth where the network is one
- * component without dangling ends already. Places that the network connects within four tolerances
- * are left alone (loose ends: within four times their distance). Where most gaps are next to
- * nothing, as between curves drawn on a surface, ends that meet a curve come first, and every
- * crossing becomes a joint.
- * Existing nodes stay where they are and the curves that come to them bend smoothly; an end comes
- * to the inside of a curve; ends meet in the middle, and so do insides. A joint between samples
- * becomes a sample.
+ * insides of curves where they cross, seen along the gap between them, or touch: to a twentieth of
+ * the tolerance, or to a quarter where one has a corner that points to the other. Curves that pass
+ * side by side stay apart, however near: a hole beside the border of its patch, two parallel ones.
+ * Insides of one component are joined at a quarter of the tolerance only, or at a hundredth where
+ * the network is one component without dangling ends already. Places that the network connects
+ * within four tolerances are left alone (loose ends: within four times their distance). Where most
+ * gaps are next to nothing, as between curves drawn on a surface, ends that meet a curve come first,
+ * and every crossing becomes a joint. Existing nodes stay where they are and the curves that come to
+ * them bend smoothly; an end comes to the inside of a curve; ends meet in the middle, and so do
+ * insides. A joint between samples becomes a sample.
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other

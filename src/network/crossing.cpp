@@ -52,17 +52,6 @@ struct View {
 
 }  // namespace
 
-static Status add_branch(const View& view, const Vec3& from, const Vec3& to, bool of_a,
-                         Array<Branch>* branches) {
-  constexpr double k_least_share = 0.5;
-  const Vec3 way = to - from, seen = reject(way, view.gap);
-  if (!(length(seen) > k_least_share * length(way))) return {};
-  const Vec3 direction = unit(seen);
-  const double x = dot(direction, view.u), y = dot(direction, view.v);
-  const double turn = y / (std::fabs(x) + std::fabs(y));
-  return branches->push({direction, x < 0.0 ? 2.0 - turn : turn, of_a});
-}
-
 // The end or node that is so near that what lies between is no branch; else the place itself.
 static WirePlace settle(const Beads& beads, const WirePlace& place, double reach) {
   constexpr double k_near = 0.25;
@@ -76,11 +65,34 @@ static WirePlace settle(const Beads& beads, const WirePlace& place, double reach
   return special(next, (1.0 - place.part) * size) ? WirePlace{next, 0.0} : place;
 }
 
-// The branches of all curves at a place. `ends`: there is only one, the curve ends there.
+// Of one of the two places.
+struct Tip {
+  uint32_t branches = 0;  // one: the curve ends there
+  uint32_t seen = 0;      // of these, not along the gap
+  bool points = true;     // all branches lead away from the other curve
+};
+
+static Status add_branch(const View& view, const Vec3& way, bool of_a, Array<Branch>* branches,
+                         Tip* tip) {
+  constexpr double k_least_share = 0.5;
+  ++tip->branches;
+  const bool away = dot(unit(way), of_a ? view.gap : -view.gap) < -k_least_sine;
+  const Vec3 seen = reject(way, view.gap);
+  if (!(length(seen) > k_least_share * length(way))) {
+    tip->points = tip->points && away;
+    return {};
+  }
+  ++tip->seen;
+  const Vec3 direction = unit(seen);
+  const double x = dot(direction, view.u), y = dot(direction, view.v);
+  const double turn = y / (std::fabs(x) + std::fabs(y));
+  return branches->push({direction, x < 0.0 ? 2.0 - turn : turn, of_a, away});
+}
+
+// The branches of all curves at a place.
 static Status list_branches(const Beads& beads, const View& view, const WirePlace& place, bool of_a,
-                            Array<Branch>* branches, bool* ends) {
+                            Array<Branch>* branches, Tip* tip) {
   const Wires& wires = beads.wires;
-  uint32_t count = 0;
   const uint32_t first = place.edge;
   uint32_t b = first;
   do {
@@ -91,52 +103,59 @@ static Status list_branches(const Beads& beads, const View& view, const WirePlac
       const bool forward = side == 1;
       const uint32_t beyond = forward ? wires.next(c, here.edge) : wires.previous(c, here.edge);
       if (here.part == 0.0 && beyond == k_none) continue;
-      ++count;
-      TRY(add_branch(view, from, walk(beads, here, view.reach, forward), of_a, branches));
+      const Vec3 way = walk(beads, here, view.reach, forward) - from;
+      TRY(add_branch(view, way, of_a, branches, tip));
     }
     b = beads.bead[b].ring;
   } while (place.part == 0.0 && b != first);
-  *ends = count < 2;
   return {};
 }
 
-// How often the branches change from one curve to the other, going round once.
-static uint32_t count_changes(Span<const Branch> branches, Span<uint8_t> along) {
-  const size_t n = branches.size();
-  for (size_t i = 0; i < n; ++i) {
-    const Branch &p = branches[i], &q = branches[(i + 1) % n];
+static void mark_along(Span<Branch> branches) {
+  for (size_t i = 0; i < branches.size(); ++i) {
+    Branch &p = branches[i], &q = branches[(i + 1) % branches.size()];
     if (p.of_a == q.of_a || dot(p.direction, q.direction) < 0.0) continue;
-    if (run_along(p.direction, q.direction)) along[i] = along[(i + 1) % n] = 1;
+    if (run_along(p.direction, q.direction)) p.along = q.along = true;
   }
+}
+
+// How often the branches change from one curve to the other, going round once.
+static uint32_t count_changes(Span<const Branch> branches) {
   uint32_t changes = 0;
   const Branch *first = nullptr, *last = nullptr;
-  for (size_t i = 0; i < n; ++i) {
-    if (along[i]) continue;
-    if (first == nullptr) first = &branches[i];
-    if (last != nullptr && last->of_a != branches[i].of_a) ++changes;
-    last = &branches[i];
+  for (const Branch& branch : branches) {
+    if (branch.along) continue;
+    if (first == nullptr) first = &branch;
+    if (last != nullptr && last->of_a != branch.of_a) ++changes;
+    last = &branch;
   }
   return first != nullptr && first->of_a != last->of_a ? changes + 1 : changes;
 }
 
-Status cross_or_end(const Beads& beads, const Approach& approach, Array<Branch>* scratch,
-                    bool* result) {
+Status judge_contact(const Beads& beads, const Approach& approach, Array<Branch>* scratch,
+                     Contact* contact) {
   const View view(approach);
-  bool ends_a = false, ends_b = false;
-  scratch->clear();
   const WirePlace a = settle(beads, approach.a, view.reach);
   const WirePlace b = settle(beads, approach.b, view.reach);
-  TRY(list_branches(beads, view, a, true, scratch, &ends_a));
-  TRY(list_branches(beads, view, b, false, scratch, &ends_b));
-  *result = true;
-  if (ends_a || ends_b) return {};
+  Tip at_a, at_b;
+  scratch->clear();
+  TRY(list_branches(beads, view, a, true, scratch, &at_a));
+  TRY(list_branches(beads, view, b, false, scratch, &at_b));
+  *contact = Contact::meets;
+  if (at_a.branches < 2 || at_b.branches < 2) return {};
   sort(scratch->span(), [](const Branch& p, const Branch& q) {
     if (p.turn != q.turn) return p.turn < q.turn;
     return p.of_a && !q.of_a;
   });
-  Array<uint8_t> along(scratch->context());
-  TRY(along.assign(scratch->size(), 0));
-  *result = count_changes(scratch->span(), along.span()) >= 4;
+  mark_along(scratch->span());
+  if (count_changes(scratch->span()) >= 4) return {};
+  for (const Branch& branch : *scratch) {
+    Tip& tip = branch.of_a ? at_a : at_b;
+    const Tip& other = branch.of_a ? at_b : at_a;
+    const bool leaves_line = !branch.along && other.seen == other.branches;
+    tip.points = tip.points && (branch.away || leaves_line);
+  }
+  *contact = at_a.points || at_b.points ? Contact::points : Contact::beside;
   return {};
 }
 

@@ -44,9 +44,10 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
     const bool beside = !touches && is_beside(beads, approach);
     const bool ends = ends_on(beads.wires, beads.curve.span(), k_crossing * tolerance, approach);
     plan->pass[k] = beside ? SnapPass::beside : ends ? SnapPass::settled : SnapPass::crosses;
-    bool meets = touches;
-    if (!touches && !beside) TRY(cross_or_end(beads, approach, &branches, &meets));
-    plan->beside[k] = !meets;
+    Contact contact = touches ? Contact::meets : Contact::beside;
+    if (!touches) TRY(judge_contact(beads, approach, &branches, &contact));
+    const bool points = contact == Contact::points && approach.distance <= k_crossing * tolerance;
+    plan->beside[k] = (contact != Contact::meets || beside) && !points;
     others += !beside;
     exact += touches;
     if (k % 1024 == 1023) TRY(beads.context().checkpoint());

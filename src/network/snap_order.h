@@ -13,7 +13,7 @@
 namespace wireskin::network {
 
 // Within one component insides are joined only this much nearer than the tolerance: where curves
-// cross, and not where they pass each other.
+// cross, and not where they pass each other. So is a corner to the curve that it points to.
 inline constexpr double k_crossing = 0.25;
 // A gap of exact curves is no wider than this part of the tolerance; and curves that are as near as
 // that touch, in whatever direction they go on.
