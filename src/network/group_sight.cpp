@@ -8,12 +8,12 @@
 namespace wireskin::network {
 
 // A disc inside a loop that asks has at least this curvature.
-static constexpr double k_least_curvature = 2.0;
+static constexpr double k_least_curvature = 2.5;
 // What is seen by fewer of a loop's places, or at a lower mean cosine, is not asked for.
 static constexpr double k_least_share = 0.1, k_least_cosine = 0.25;
 // Of the evidence: against joining, for a short way, for the loop's curvature, for what is spared.
 static constexpr double k_against = 0.45, k_for_way = 0.8, k_for_curvature = 0.5,
-                        k_for_spared = 0.5;
+                        k_for_spared = 0.6;
 // Less evidence than this may as well be none.
 static constexpr double k_clear_evidence = 0.1;
 
