@@ -17,6 +17,8 @@ static constexpr double k_weight_of_normals = 2.0;
 static constexpr double k_weight_of_normals_of_tubes = 8.0;
 // Areas below this share of the squared perimeter, and angles of about this size, are none.
 static constexpr double k_no_area = 1e-10;
+// More than any triangles with area can cost together, the extent being about one.
+static constexpr double k_weight_of_needle = 1e6;
 
 namespace {
 
@@ -200,12 +202,15 @@ static double triangle_weight(const Kept& kept, uint32_t i, uint32_t j, uint32_t
   const Span<const Vec3> position = kept.loops.position, normal = kept.loops.normal;
   const Vec3 a = position[v] - position[u], b = position[w] - position[u];
   const Vec3 across = cross(a, b), c = b - a;
+  // Three places of a straight side make a triangle of no area only where there is no other way.
+  const double squares = dot(a, a) + dot(b, b) + dot(c, c);
+  if (!(length(across) > k_no_area * squares)) return k_weight_of_needle;
   const Vec3 facing = unit(normal[u] + normal[v] + normal[w]);
   // |across| / 2 is the area, so this is area * (1 + k (1 - cos)) without a division.
   const double weight =
       kept.loops.count() == 1 ? k_weight_of_normals : k_weight_of_normals_of_tubes;
   return 0.5 * ((1.0 + weight) * length(across) - weight * dot(across, facing)) +
-         k_weight_of_edges * (dot(a, a) + dot(b, b) + dot(c, c));
+         k_weight_of_edges * squares;
 }
 
 static Status find_best(Context& context, const Kept& kept, Best* best) {
@@ -380,18 +385,33 @@ static Status triangulate_loops(Context& context, const Loops& loops, Array<Vec3
   return put_back(kept, triangle);
 }
 
-Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh* mesh) {
-  TRY(check_loops(loops, spacing));
-  Array<Vec3> point(context), inner(context);
-  Array<uint32_t> triangle(context);
-  TRY(triangulate_loops(context, loops, &inner, &triangle));
-  TRY(point.copy(loops.position));
-  for (const Vec3& p : inner) TRY(point.push(p));
-  TRY(refine_loops(context, spacing, loops.start, &point, &triangle));
+// Refines a copy of the triangulation; `*sound`: whether it has area, and no needle.
+static Status refine_copy(const Loops& loops, double spacing, const LoopMesh& coarse,
+                          Array<Vec3>* point, Array<uint32_t>* triangle, bool* sound) {
+  Context& context = point->context();
   const double perimeter = perimeter_of(loops);
-  if (!(sound_area(point.span(), triangle.span()) > k_no_area * perimeter * perimeter)) {
-    return fail(Code::patch_folded, "the border of the patch encloses no area");
+  TRY(point->copy(loops.position));
+  for (const Vec3& p : coarse.inner) TRY(point->push(p));
+  TRY(triangle->copy(coarse.triangle.span()));
+  TRY(refine_loops(context, spacing, loops.start, point, triangle));
+  *sound = sound_area(point->span(), triangle->span()) > k_no_area * perimeter * perimeter;
+  return {};
+}
+
+Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh* mesh) {
+  constexpr int k_tries = 4;
+  TRY(check_loops(loops, spacing));
+  LoopMesh coarse(context);
+  Array<Vec3> point(context);
+  Array<uint32_t> triangle(context);
+  TRY(triangulate_loops(context, loops, &coarse.inner, &coarse.triangle));
+  // Where a border has edges far shorter than the rest the points added may line up with two others
+  // in a triangle that no flip removes: fewer of them do not.
+  bool sound = false;
+  for (int k = 0; k < k_tries && !sound; ++k) {
+    TRY(refine_copy(loops, spacing * (1 << k), coarse, &point, &triangle, &sound));
   }
+  if (!sound) return fail(Code::patch_folded, "the border of the patch encloses no area");
   const size_t n = loops.position.size();
   TRY(mesh->inner.copy(point.span().part(n, point.size() - n)));
   mesh->triangle = static_cast<Array<uint32_t>&&>(triangle);

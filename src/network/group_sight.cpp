@@ -8,12 +8,12 @@
 namespace wireskin::network {
 
 // A disc inside a loop that asks has at least this curvature.
-static constexpr double k_least_curvature = 2.0;
+static constexpr double k_least_curvature = 2.5;
 // What is seen by fewer of a loop's places, or at a lower mean cosine, is not asked for.
 static constexpr double k_sight_share = 0.1, k_sight_cosine = 0.25;
 // Of the evidence: against joining, for a short way, for the loop's curvature, for what is spared.
 static constexpr double k_against = 0.45, k_for_way = 0.8, k_for_curvature = 0.5,
-                        k_for_spared = 0.5;
+                        k_for_spared = 0.6;
 // Less evidence than this may as well be none.
 static constexpr double k_clear_evidence = 0.1;
 
@@ -65,16 +65,34 @@ struct Lookout {
 
 }  // namespace
 
+// Whether a patch is a loop that looks for others.
+static bool asks_for_others(const Grouping& g, uint32_t p, const Border& border) {
+  return !g.network->ring[p] && g.is_alone(p) && border.loops() == 1 &&
+         curvature_inside(border, 0) >= k_least_curvature && knows_normals(border, 0);
+}
+
+// Most networks have no loop that asks, and need no places.
+static Status find_any_that_asks(const Grouping& g, bool* any) {
+  Border border(g.parent.context());
+  *any = false;
+  for (uint32_t p = 0; p < g.network->patches() && !*any; ++p) {
+    TRY(border_of_patch(*g.network, g.vertices, p, &border));
+    *any = asks_for_others(g, p, border);
+    if (p % 64 == 63) TRY(border.vertex.context().checkpoint());
+  }
+  return {};
+}
+
 // Adds the loops of a patch, those of an undecided ring by both sides.
 static Status add_patch(uint32_t p, Border* border, Lookout* out) {
   const Grouping& g = *out->g;
   TRY(border_of_patch(*g.network, g.vertices, p, border));
   double area = 0.0;
   const double cosine = closing_cosine(*border, &area), perimeter = border_length(*border);
-  const bool ring = g.network->ring[p] != 0, alone = g.is_alone(p) && border->loops() == 1;
+  const bool asks = asks_for_others(g, p, *border);
   TRY(out->first.push(static_cast<uint32_t>(out->map.loop.size())));
   out->curvature[p] = -4.0 * k_pi * (border->loops() - 1);
-  out->undecided[p] = ring && alone;
+  out->undecided[p] = g.network->ring[p] && g.is_alone(p) && border->loops() == 1;
   for (uint32_t l = 0; l < border->loops(); ++l) {
     for (int side = 0; side < 2; ++side) {
       if (out->undecided[p] ? false : side != g.reversed[p]) continue;
@@ -82,7 +100,7 @@ static Status add_patch(uint32_t p, Border* border, Lookout* out) {
       const SightLoop& loop = out->map.loop.back();
       const double least = larger(1.0 + (side == 0 ? cosine : -cosine), 1e-3);
       TRY(out->cap.push(8.0 * area / (least * least * least) / perimeter));
-      TRY(out->asks.push(!ring && alone && loop.known && loop.curvature >= k_least_curvature));
+      TRY(out->asks.push(asks));
       if (side == g.reversed[p]) out->curvature[p] += loop.curvature;
     }
   }
@@ -266,10 +284,11 @@ Status join_in_sight(Grouping* g) {
   Context& context = g->parent.context();
   Lookout out(context, g);
   Array<uint8_t> changed(context);
-  TRY(take_loops(&out));
   bool any = false;
-  for (uint8_t asks : out.asks) any = any || asks != 0;
-  if (any) TRY(build_sight_tree(&out.map));
+  TRY(find_any_that_asks(*g, &any));
+  if (!any) return {};
+  TRY(take_loops(&out));
+  TRY(build_sight_tree(&out.map));
   while (any) {
     for (uint32_t l = 0; l < out.map.loop.size(); ++l) {
       if (!out.stale[l]) continue;

@@ -26,21 +26,26 @@ static double total_turning(const Border& border, uint32_t loop) {
   return sum;
 }
 
+double curvature_inside(const Border& border, uint32_t loop) {
+  return 2.0 * k_pi - total_turning(border, loop);
+}
+
+bool knows_normals(const Border& border, uint32_t loop) {
+  bool known = true;
+  for (uint32_t i = border.start[loop]; i < border.start[loop + 1]; ++i) {
+    known = known && border.normal[i] != Vec3{};
+  }
+  return known;
+}
+
 Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool reversed,
                       SightMap* map) {
   const uint32_t start = border.start[loop], n = border.start[loop + 1] - start;
   const uint32_t count = n < k_most_places ? n : k_most_places;
   const uint32_t own = static_cast<uint32_t>(map->loop.size());
-  const double turning = total_turning(border, loop);
-  SightLoop added = {patch,
-                     reversed,
-                     static_cast<uint32_t>(map->place.size()),
-                     count,
-                     2.0 * k_pi - (reversed ? -turning : turning),
-                     true};
-  for (uint32_t i = start; i < start + n; ++i) {
-    added.known = added.known && border.normal[i] != Vec3{};
-  }
+  const double inside = curvature_inside(border, loop);
+  const SightLoop added = {patch, reversed, static_cast<uint32_t>(map->place.size()), count,
+                           reversed ? 4.0 * k_pi - inside : inside};
   for (uint32_t k = 0; k < count; ++k) {
     const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
     const Vec3& next = border.position[start + (i + 1 < n ? i + 1 : 0)];

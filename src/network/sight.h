@@ -18,8 +18,7 @@ struct SightLoop {
   uint32_t patch;
   bool reversed;          // the other side of a ring
   uint32_t first, count;  // of the places
-  double curvature;       // the integral over a disc inside the loop
-  bool known;             // all normals are
+  double curvature;       // of a disc inside the loop
 };
 
 struct SightPlace {
@@ -56,6 +55,12 @@ struct SightMap {
         box(context),
         nearest(context) {}
 };
+
+// The integral of the curvature over a disc inside a loop, from how the loop turns.
+double curvature_inside(const Border& border, uint32_t loop);
+
+// Whether all normals of a loop are known.
+bool knows_normals(const Border& border, uint32_t loop);
 
 Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool reversed,
                       SightMap* map);
