@@ -82,11 +82,11 @@ static Status count_reconstruction(Context& context, const Flow& flow, Reconstru
 Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptions& options,
                    Reconstruction* result) {
   TRY(context.enter(Stage::patches));
-  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.cells.need.span(),
-                           flow.persistence, options.topology, &result->topology));
-  TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.cells.need.span(),
-                        flow.persistence, flow.tangents, options.thicken, &result->topology));
-  TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.persistence,
+  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.cells, flow.persistence,
+                           options.topology, &result->topology));
+  TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.cells, flow.persistence,
+                        flow.tangents, options.thicken, &result->topology));
+  TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.cells, flow.persistence,
                   result->topology, &result->patches));
   return count_reconstruction(context, flow, result);
 }

@@ -133,7 +133,7 @@ static uint32_t room_at(const Complex& complex, const Cells& cells, uint32_t tri
 }
 
 // The classes of triangles under edges that are no curve and have two of them.
-static Status number_walls(const Complex& complex, const CurveEdges& curves, Span<const Need> need,
+static Status number_walls(const Complex& complex, const CurveEdges& curves, const FlatCells& flat,
                            const SampleTangents& tangents, const Topology3& topology,
                            Cells* cells) {
   Array<uint32_t>& queue = cells->triangle;
@@ -167,7 +167,7 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves, Spa
          k_none,
          topology.walls.in[t] != 0,
          topology.closed.in[t] == 0 &&
-             !measure_border(complex, curves, need, cells->sheet, part).is_idle()}));
+             !measure_border(complex, curves, flat, cells->sheet, part).is_idle()}));
   }
   return {};
 }
@@ -188,7 +188,7 @@ static Status link_rooms(Cells* cells) {
 }
 
 static Status find_cells(Context& context, const Complex& complex, const CurveEdges& curves,
-                         Span<const Need> need, const Persistence& persistence,
+                         const FlatCells& flat, const Persistence& persistence,
                          const SampleTangents& tangents, const Topology3& topology, Cells* cells) {
   TRY(start_sheet(complex, &cells->sheet));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
@@ -197,7 +197,7 @@ static Status find_cells(Context& context, const Complex& complex, const CurveEd
   }
   peel(complex, curves, Protect::curves, &cells->sheet);
   TRY(number_rooms(context, complex, topology.label.span(), cells));
-  TRY(number_walls(complex, curves, need, tangents, topology, cells));
+  TRY(number_walls(complex, curves, flat, tangents, topology, cells));
   TRY(link_rooms(cells));
   for (const Void& v : persistence.voids) {
     const uint32_t wall = cells->wall_of[v.creator];
@@ -316,14 +316,14 @@ static Status empty_rooms(Context& context, uint32_t outside_label, bool inside_
 }
 
 Status thicken_and_prune(Context& context, const Complex& complex, const CurveEdges& curves,
-                         Span<const Need> need, const Persistence& persistence,
+                         const FlatCells& flat, const Persistence& persistence,
                          const SampleTangents& tangents, const ThickenOptions& options,
                          Topology3* topology) {
   if (topology->chosen.empty() || !(options.reach > 0.0)) return {};
   Cells cells(context);
   Array<uint8_t> added(context), opened(context);
   bool any = false;
-  TRY(find_cells(context, complex, curves, need, persistence, tangents, *topology, &cells));
+  TRY(find_cells(context, complex, curves, flat, persistence, tangents, *topology, &cells));
   TRY(context.checkpoint());
   TRY(fill_rooms(complex, persistence, *topology, options.reach, &added, &cells, &any));
   if (!any) return {};

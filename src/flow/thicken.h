@@ -31,7 +31,7 @@ Status find_tangents(const Samples& samples, SampleTangents* tangents);
 
 // Updates topology->walls and ->label.
 Status thicken_and_prune(Context& context, const Complex& complex, const CurveEdges& curves,
-                         Span<const Need> need, const Persistence& persistence,
+                         const FlatCells& flat, const Persistence& persistence,
                          const SampleTangents& tangents, const ThickenOptions& options,
                          Topology3* topology);
 

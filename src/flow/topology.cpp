@@ -82,7 +82,16 @@ static bool is_tip(const Complex& complex, const CurveEdges& curves, const Sheet
   return tip;
 }
 
-WallBorder measure_border(const Complex& complex, const CurveEdges& curves, Span<const Need> need,
+// Where a wall ends off the curves at a flat face that waits for others.
+static bool meets_late_face(const Complex& complex, const FlatCells& cells, uint32_t e) {
+  if (cells.turn.empty()) return false;
+  for (const uint32_t t : complex.triangles_of(e)) {
+    if (cells.turn[t] == Pass::late) return true;
+  }
+  return false;
+}
+
+WallBorder measure_border(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
                           const Sheet& sheet, Span<const uint32_t> wall) {
   WallBorder border;
   for (const uint32_t t : wall) {
@@ -93,8 +102,9 @@ WallBorder measure_border(const Complex& complex, const CurveEdges& curves, Span
       const double size = edge_length(complex, e);
       border.whole += size;
       if (!by_curve) border.loose += size;
-      if (by_curve && need[e] == Need::settled) border.settled += size;
-      if (by_curve && need[e] == Need::waiting) border.waiting += size;
+      if (!by_curve && meets_late_face(complex, cells, e)) border.in_face += size;
+      if (by_curve && cells.need[e] == Need::settled) border.settled += size;
+      if (by_curve && cells.need[e] == Need::waiting) border.waiting += size;
     }
   }
   return border;
@@ -136,7 +146,7 @@ struct Choice {
 enum class Verdict : uint8_t { wanted, accepted, unbounded, gone };
 
 // Whether the creator's wall holds, together with those chosen before.
-static Status try_void(const Complex& complex, const CurveEdges& curves, Span<const Need> need,
+static Status try_void(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
                        uint32_t creator, uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
   TRY(copy_sheet(trial->all, &trial->peeled));
   add_to_sheet(complex, creator, &trial->peeled);
@@ -147,22 +157,22 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, Span<co
                   &trial->wall));
   if (is_tip(complex, curves, trial->peeled, trial->wall.span(), trial->odd.span())) return {};
   const WallBorder border =
-      measure_border(complex, curves, need, trial->peeled, trial->wall.span());
+      measure_border(complex, curves, cells, trial->peeled, trial->wall.span());
   const bool bounded = border.loose <= k_loose_share * border.whole && !border.is_idle();
-  *verdict = border.waiting >= (1.0 - k_loose_share) * border.whole ? Verdict::wanted
-             : bounded                                              ? Verdict::accepted
-                                                                    : Verdict::unbounded;
+  *verdict = border.is_wanted() ? Verdict::wanted
+             : bounded          ? Verdict::accepted
+                                : Verdict::unbounded;
   return {};
 }
 
 // All that hold; down to a lesser ratio those that curves wait for, if any do.
 static Status try_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                        Span<const Need> need, const Persistence& persistence, double least_ratio,
+                        const FlatCells& cells, const Persistence& persistence, double least_ratio,
                         size_t wished, Array<Choice>* choices, Array<uint32_t>* unbounded) {
   VoidTrial trial(context);
   uint32_t tries = 0;
   bool waiting = false;
-  for (const Need n : need) waiting = waiting || n == Need::waiting;
+  for (const Need n : cells.need) waiting = waiting || n == Need::waiting;
   TRY(start_trial(complex, persistence, {}, &trial));
   for (uint32_t i = 0; i < persistence.voids.size() && choices->size() < wished; ++i) {
     const Void& v = persistence.voids[i];
@@ -171,7 +181,7 @@ static Status try_voids(Context& context, const Complex& complex, const CurveEdg
     if (!v.held && (high || (waiting && v.ratio >= k_least_wanted)) && tries < k_most_tries) {
       ++tries;
       TRY(context.checkpoint());
-      TRY(try_void(complex, curves, need, v.creator, i, &trial, &verdict));
+      TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
     }
     if (verdict == Verdict::unbounded) TRY(unbounded->push(i));
     if (verdict != Verdict::wanted && (verdict != Verdict::accepted || !high)) continue;
@@ -203,13 +213,13 @@ static void cut_at_gap(Array<Choice>* choices) {
 }
 
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    Span<const Need> need, const Persistence& persistence,
+                    const FlatCells& cells, const Persistence& persistence,
                     const TopologyOptions& options, Array<uint32_t>* chosen) {
   const bool automatic = options.voids < 0;
   const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
   Array<Choice> choices(context);
   Array<uint32_t> unbounded(context);
-  TRY(try_voids(context, complex, curves, need, persistence, automatic ? options.least_ratio : 1.0,
+  TRY(try_voids(context, complex, curves, cells, persistence, automatic ? options.least_ratio : 1.0,
                 wished, &choices, &unbounded));
   if (automatic) cut_at_gap(&choices);
   chosen->clear();
@@ -223,20 +233,24 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
 
 // ---- Handles and walls --------------------------------------------------------------------------
 
-static bool same_void(const Complex& complex, Span<const uint32_t> label, uint32_t triangle) {
-  return label[side_of(complex, triangle, 0)] == label[side_of(complex, triangle, 1)];
+// Whether the triangle may go: one void is on both sides, and it is not part of a sure face.
+static bool may_go(const Complex& complex, const FlatCells& cells, const Topology3& topology,
+                   uint32_t triangle) {
+  if (!cells.turn.empty() && cells.turn[triangle] == Pass::late) return false;
+  return topology.label[side_of(complex, triangle, 0)] ==
+         topology.label[side_of(complex, triangle, 1)];
 }
 
 // Opens handles: triangles with one void on both sides that are part of no fin.
 static Status open_handles(Context& context, const Complex& complex, const CurveEdges& curves,
-                           Topology3* topology) {
+                           const FlatCells& cells, Topology3* topology) {
   Sheet& walls = topology->walls;
   Sheet finless(context);
   Array<uint32_t> order(context);
   TRY(copy_sheet(walls, &finless));
   peel(complex, curves, Protect::nothing, &finless);
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (finless.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+    if (finless.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
   for (const uint32_t t : order) {
@@ -294,14 +308,14 @@ static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, 
 // good, and with it all that joins it later, for there are only ever fewer triangles; and one whose
 // border is closed has no neighbour that it could join. So each is looked at once.
 static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
-                                Topology3* topology) {
+                                const FlatCells& cells, Topology3* topology) {
   constexpr size_t k_work_per_checkpoint = 1u << 14;
   Sheet& walls = topology->walls;
   Array<uint32_t> order(context), wall(context);
   Array<Settled> settled(context);
   TRY(settled.assign(complex.triangle_count(), Settled::no));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (walls.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+    if (walls.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
   size_t work = 0;
@@ -325,9 +339,9 @@ static Status remove_open_walls(Context& context, const Complex& complex, const 
 }
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            Span<const Need> need, const Persistence& persistence,
+                            const FlatCells& cells, const Persistence& persistence,
                             const TopologyOptions& options, Topology3* topology) {
-  TRY(choose_voids(context, complex, curves, need, persistence, options, &topology->chosen));
+  TRY(choose_voids(context, complex, curves, cells, persistence, options, &topology->chosen));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
@@ -339,8 +353,8 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
   peel(complex, curves, Protect::curves, &walls);
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));
-  TRY(open_handles(context, complex, curves, topology));
-  if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, topology));
+  TRY(open_handles(context, complex, curves, cells, topology));
+  if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, cells, topology));
   return {};
 }
 

@@ -40,27 +40,31 @@ struct Topology3 {
 struct WallBorder {
   double whole = 0.0;
   double loose = 0.0;    // off the curves and their chords
+  double in_face = 0.0;  // of that, where it merges into a flat face that waits for others
   double settled = 0.0;  // on curves that have no use for the wall
   double waiting = 0.0;  // on curves that have a flat face on their other side
 
   // No curve is there for the sake of the wall, or few.
   bool is_idle() const { return loose + settled > 0.6 * whole; }
+  // Curves are there that lack only this wall; it may reach the flat faces at them a little early.
+  bool is_wanted() const {
+    return waiting >= 0.6 * whole && settled + loose - in_face <= 0.1 * whole;
+  }
 };
 
-WallBorder measure_border(const Complex& complex, const CurveEdges& curves, Span<const Need> need,
+WallBorder measure_border(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
                           const Sheet& sheet, Span<const uint32_t> wall);
 
 // The components of the complement of a sheet: joins all tetrahedra not separated by it. The
 // outside is the last entry. Labels are least members.
 Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* label);
 
-// `need` is of each edge (flat_cells.h).
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    Span<const Need> need, const Persistence& persistence,
+                    const FlatCells& cells, const Persistence& persistence,
                     const TopologyOptions& options, Array<uint32_t>* chosen);
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            Span<const Need> need, const Persistence& persistence,
+                            const FlatCells& cells, const Persistence& persistence,
                             const TopologyOptions& options, Topology3* topology);
 
 }  // namespace wireskin::flow
