@@ -1,14 +1,13 @@
 #include "flow/flat_faces.h"
 
 #include "base/sort.h"
+#include "flow/point_grid.h"
 #include "num/minmax.h"
 
 namespace wireskin::flow {
 
-static constexpr double k_flat = 1e-3;          // of the diagonal, off the plane
-static constexpr double k_straight = 0.01;      // of an arc's length, off its chord
 static constexpr double k_least_corner = 0.94;  // cosine of what a polygon turns at a corner
-static constexpr double k_same_line = 0.9985;   // of what it turns elsewhere
+static constexpr double k_beside = 1e-5;        // of the diagonal, from an edge
 static constexpr uint8_t k_most_visits = 4;
 
 namespace {
@@ -18,21 +17,26 @@ struct Plane {
 };
 
 struct FaceFlood {
+  PointGrid grid;
   Array<uint32_t> mark;               // of each triangle: the seed whose face it was last in
   Array<uint8_t> visits;              // of each triangle
   Array<uint32_t> member;             // the face
   Array<uint8_t> straight;            // of each edge: on a straight arc
-  Array<uint32_t> line;               // of each vertex inside a straight arc: the arc
-  Array<uint32_t> line_end;           // of each arc, two
+  Array<uint32_t> arc_of;             // of each edge on a curve
+  Array<uint32_t> rim_of;             // of each arc: the seed of the face that has it last
+  Array<uint32_t> next_start, next;   // of each vertex: those that segments join it to
   Array<uint32_t> seen, border_edge;  // of each vertex: its edges on the border, and one of them
 
   explicit FaceFlood(Context& context)
-      : mark(context),
+      : grid(context),
+        mark(context),
         visits(context),
         member(context),
         straight(context),
-        line(context),
-        line_end(context),
+        arc_of(context),
+        rim_of(context),
+        next_start(context),
+        next(context),
         seen(context),
         border_edge(context) {}
 };
@@ -59,31 +63,42 @@ static bool in_plane(const Complex& complex, const Plane& plane, uint32_t t) {
   return true;
 }
 
-static bool stays_on_line(const Samples& samples, uint32_t first, uint32_t last) {
-  const Vec3& p = samples.position[samples.at[first]];
-  const Vec3 chord = samples.position[samples.at[last]] - p;
-  const Vec3 along = unit(chord);
-  for (uint32_t i = first + 1; i < last; ++i) {
-    const Vec3 to = samples.position[samples.at[i]] - p;
-    if (length(to - dot(to, along) * along) > k_straight * length(chord)) return false;
+// What segments of curves join each vertex to.
+static Status link_segments(const Complex& complex, const CurveEdges& curves, FaceFlood* flood) {
+  size_t count = 0;
+  TRY(flood->next_start.assign(complex.point.size() + 1, 0));
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (!curves.on_curve(e)) continue;
+    ++flood->next_start[complex.edge[2 * size_t{e}]];
+    ++flood->next_start[complex.edge[2 * size_t{e} + 1]];
+    count += 2;
   }
-  return samples.at[first] != samples.at[last];
+  TRY(flood->next.resize(count));
+  starts_from_counts(flood->next_start.span());
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (!curves.on_curve(e)) continue;
+    const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
+    flood->next[flood->next_start[a]++] = b;
+    flood->next[flood->next_start[b]++] = a;
+  }
+  for (size_t v = flood->next_start.size() - 1; v > 0; --v) {
+    flood->next_start[v] = flood->next_start[v - 1];
+  }
+  flood->next_start[0] = 0;
+  return {};
 }
 
-// Marks the edges and the vertices of straight arcs.
-static Status mark_straight(const Complex& complex, const Samples& samples,
-                            const CurveEdges& curves, FaceFlood* flood) {
+// Marks the edges of arcs.
+static Status mark_arcs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                        const StraightLines& lines, FaceFlood* flood) {
   TRY(flood->straight.assign(complex.edge_count(), 0));
-  TRY(flood->line.assign(complex.point.size(), k_none));
-  TRY(flood->line_end.assign(2 * samples.start.size(), k_none));
+  TRY(flood->arc_of.assign(complex.edge_count(), k_none));
+  TRY(flood->rim_of.assign(samples.start.size(), k_none));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
-    const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
-    if (!stays_on_line(samples, first, last)) continue;
-    flood->line_end[2 * size_t{a}] = complex.same_as[samples.at[first]];
-    flood->line_end[2 * size_t{a} + 1] = complex.same_as[samples.at[last]];
-    for (uint32_t i = first; i < last; ++i) {
-      if (curves.edge_of[i] != k_none) flood->straight[curves.edge_of[i]] = 1;
-      if (i > first) flood->line[complex.same_as[samples.at[i]]] = a;
+    for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
+      if (curves.edge_of[i] == k_none) continue;
+      flood->arc_of[curves.edge_of[i]] = a;
+      if (lines.is_straight(a)) flood->straight[curves.edge_of[i]] = 1;
     }
   }
   return {};
@@ -95,37 +110,67 @@ static Vec3 edge_vector(const Complex& complex, uint32_t e, uint32_t from) {
                         : complex.point[a] - complex.point[b]);
 }
 
-// Whether u, too, is on the straight arc that v is inside of.
-static bool on_line_of(const FaceFlood& flood, uint32_t v, uint32_t u) {
-  const uint32_t line = flood.line[v];
-  return line != k_none && (flood.line[u] == line || flood.line_end[2 * size_t{line}] == u ||
-                            flood.line_end[2 * size_t{line} + 1] == u);
-}
-
-// Edges of the complex that belong to the curves, or pass over samples of a straight one.
-static bool on_rim(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
+// Edges of the complex that belong to the curves, or run along a straight line of them.
+static bool on_rim(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
                    uint32_t e) {
-  const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
-  return curves.on_curve(e) || on_line_of(flood, a, b) || on_line_of(flood, b, a);
+  if (curves.on_curve(e)) return true;
+  return lines.common(complex.edge[2 * size_t{e}], complex.edge[2 * size_t{e} + 1]) != k_none;
 }
 
 // All corners on one straight line: such a triangle lies in every plane through it.
-static bool is_line(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
+static bool is_line(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
                     uint32_t t) {
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const uint32_t* const edge = &complex.triangle_edge[3 * size_t{t}];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t e = edge[(k + 1) % 3], f = edge[(k + 2) % 3];
-    if (curves.on_curve(e) && curves.on_curve(f)) {
-      if (dot(edge_vector(complex, e, v[k]), edge_vector(complex, f, v[k])) < -k_same_line) {
-        return true;
-      }
-    }
-    if (on_line_of(flood, v[k], v[(k + 1) % 3]) && on_line_of(flood, v[k], v[(k + 2) % 3])) {
+    if (!curves.on_curve(e) || !curves.on_curve(f)) continue;
+    if (dot(edge_vector(complex, e, v[k]), edge_vector(complex, f, v[k])) < -k_same_line) {
       return true;
     }
   }
-  return false;
+  return lines.common(v[0], v[1], v[2]) != k_none;
+}
+
+// Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or
+// along its edges.
+static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, const Vec3& p,
+                           const Vec3& q) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const double margin = k_beside * complex.diagonal;
+  double from = 0.0, to = 1.0;
+  const Vec3& a = complex.point[v[0]];
+  const Vec3 n = cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
+  const Vec3 up = dot(n, plane.normal) > 0.0 ? plane.normal : -plane.normal;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3& b = complex.point[v[k]];
+    const Vec3 inward = cross(up, unit(complex.point[v[(k + 1) % 3]] - b));
+    const double at_p = dot(p - b, inward) - margin, at_q = dot(q - b, inward) - margin;
+    if (at_p <= 0.0 && at_q <= 0.0) return false;
+    if (at_p < 0.0) from = larger(from, at_p / (at_p - at_q));
+    if (at_q < 0.0) to = smaller(to, at_p / (at_p - at_q));
+  }
+  return (to - from) * length(q - p) > margin;
+}
+
+// Whether a curve runs across the triangle: outermost layers, of huge empty balls outside of the
+// hull, may reach across. An end of the segment of curve lies in a ball round the triangle, as no
+// sample lies in that of which the segment is a diameter.
+static bool is_crossed(const Complex& complex, const FaceFlood& flood, const Plane& plane,
+                       uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
+  const double size = larger(length(b - a), larger(length(c - b), length(a - c)));
+  return flood.grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t i) {
+    const Vec3& p = complex.point[i];
+    if (std::fabs(dot(p - plane.at, plane.normal)) > k_flat * complex.diagonal) return false;
+    for (uint32_t k = flood.next_start[i]; k < flood.next_start[i + 1]; ++k) {
+      const Vec3& q = complex.point[flood.next[k]];
+      if (std::fabs(dot(q - plane.at, plane.normal)) > k_flat * complex.diagonal) continue;
+      if (passes_through(complex, plane, t, p, q)) return true;
+    }
+    return false;
+  });
 }
 
 // Which side of an edge, within the plane, a triangle lies on.
@@ -148,8 +193,9 @@ static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const P
   return sides;
 }
 
-static Status flood_face(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
-                         const Plane& plane, uint32_t seed, FaceFlood* flood) {
+static Status flood_face(const Complex& complex, const CurveEdges& curves,
+                         const StraightLines& lines, const FlatFaces& faces, const Plane& plane,
+                         uint32_t seed, FaceFlood* flood) {
   flood->member.clear();
   const auto add = [&](uint32_t t) {
     flood->mark[t] = seed;
@@ -160,27 +206,37 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves, const
   for (size_t i = 0; i < flood->member.size(); ++i) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
-      if (on_rim(complex, curves, *flood, e)) continue;
+      if (on_rim(complex, curves, lines, e)) continue;
       for (const uint32_t t : complex.triangles_of(e)) {
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
-        if (done || sheet.in[t] == 0 || !in_plane(complex, plane, t)) continue;
-        if (!is_line(complex, curves, *flood, t)) TRY(add(t));
+        if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
+        if (is_line(complex, curves, lines, t)) continue;
+        if (!is_crossed(complex, *flood, plane, t)) TRY(add(t));
       }
     }
   }
   return {};
 }
 
-static bool is_closed(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
-                      const Plane& plane, uint32_t seed) {
-  for (const uint32_t t : flood.member) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (on_rim(complex, curves, flood, e)) continue;
-      if (sides_of(complex, flood, plane, seed, e) != 3) return false;
+// Leaves only triangles that go on, at each of their edges off the curves, on the other side: all
+// of a face where curves close it, nothing where not.
+static void close_face(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
+                       const Plane& plane, uint32_t seed, FaceFlood* flood) {
+  for (bool any = true; any;) {
+    size_t kept = 0;
+    for (const uint32_t t : flood->member) {
+      bool closed = true;
+      for (uint32_t k = 0; closed && k < 3; ++k) {
+        const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+        closed =
+            on_rim(complex, curves, lines, e) || sides_of(complex, *flood, plane, seed, e) == 3;
+      }
+      if (closed) flood->member[kept++] = t;
+      if (!closed) flood->mark[t] = k_none;
     }
+    any = kept < flood->member.size();
+    flood->member.shrink(kept);
   }
-  return true;
 }
 
 // Notes an edge of the border at both its ends; false if it makes a bend with the one before.
@@ -199,14 +255,14 @@ static bool turns_well(const Complex& complex, uint32_t e, FaceFlood* flood) {
   return well;
 }
 
-static bool is_polygon(const Complex& complex, const CurveEdges& curves, const Plane& plane,
-                       uint32_t seed, FaceFlood* flood) {
+static bool is_polygon(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
+                       const Plane& plane, uint32_t seed, FaceFlood* flood) {
   double whole = 0.0, straight = 0.0;
   bool corners = true;
   for (const uint32_t t : flood->member) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (!on_rim(complex, curves, *flood, e)) continue;
+      if (!on_rim(complex, curves, lines, e)) continue;
       if (sides_of(complex, *flood, plane, seed, e) == 3) continue;
       const double size = length(complex.point[complex.edge[2 * size_t{e}]] -
                                  complex.point[complex.edge[2 * size_t{e} + 1]]);
@@ -222,18 +278,108 @@ static bool is_polygon(const Complex& complex, const CurveEdges& curves, const P
   return corners && straight >= 0.5 * whole;
 }
 
-// Triangles at curves, which every face has, largest first.
-static Status list_seeds(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
-                         const FaceFlood& flood, Array<double>* area, Array<uint32_t>* seeds) {
-  TRY(area->resize(complex.triangle_count()));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (sheet.in[t] == 0) continue;
-    (*area)[t] = twice_area(complex, t);
-    bool at_curve = false;
+// Whether a curve goes through the face, from one side to the other.
+static bool is_pierced(const Complex& complex, const Plane& plane, const FaceFlood& flood) {
+  for (const uint32_t t : flood.member) {
     for (uint32_t k = 0; k < 3; ++k) {
-      at_curve = at_curve || curves.on_curve(complex.triangle_edge[3 * size_t{t} + k]);
+      const uint32_t v = complex.triangle[3 * size_t{t} + k];
+      bool above = false, below = false, within = false;
+      for (uint32_t i = flood.next_start[v]; i < flood.next_start[v + 1]; ++i) {
+        const double off = dot(complex.point[flood.next[i]] - plane.at, plane.normal);
+        above = above || off > k_flat * complex.diagonal;
+        below = below || off < -k_flat * complex.diagonal;
+        within = within || std::fabs(off) <= k_flat * complex.diagonal;
+      }
+      if (above && below && !within) return true;
     }
-    if (at_curve && !is_line(complex, curves, flood, t)) TRY(seeds->push(t));
+  }
+  return false;
+}
+
+// Notes an arc that has the face on one side.
+static Status add_rim(const Complex& complex, const Plane& plane, uint32_t arc, uint32_t e,
+                      uint32_t sides, uint32_t seed, FaceFlood* flood, FlatFaces* faces) {
+  if (flood->rim_of[arc] == seed) return {};
+  flood->rim_of[arc] = seed;
+  const Vec3 left = cross(plane.normal, edge_vector(complex, e, complex.edge[2 * size_t{e}]));
+  return faces->rim.push({arc, sides == 1 ? left : -left});
+}
+
+// Whether an arc of a line runs along an edge on it, for more than half of either.
+static bool runs_along(const Complex& complex, const Samples& samples, uint32_t a, uint32_t e) {
+  const Vec3& from = complex.point[complex.edge[2 * size_t{e}]];
+  const Vec3& to = complex.point[complex.edge[2 * size_t{e} + 1]];
+  const Vec3 along = unit(to - from);
+  const double whole = length(to - from);
+  double s = dot(samples.position[samples.at[samples.start[a]]] - from, along);
+  double t = dot(samples.position[samples.at[samples.start[a + 1] - 1]] - from, along);
+  if (s > t) swap_values(s, t);
+  const double common = smaller(t, whole) - larger(s, 0.0);
+  return common > 0.5 * smaller(whole, t - s);
+}
+
+static Status add_face(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                       const StraightLines& lines, const Plane& plane, uint32_t seed,
+                       FaceFlood* flood, FlatFaces* faces) {
+  for (const uint32_t t : flood->member) {
+    faces->part[t] = faces->polygon.back() != 0 ? FlatPart::polygon : FlatPart::disc;
+    TRY(faces->triangle.push(t));
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (!on_rim(complex, curves, lines, e)) continue;
+      const uint32_t sides = sides_of(complex, *flood, plane, seed, e);
+      if (sides == 3) continue;
+      if (curves.on_curve(e)) {
+        TRY(add_rim(complex, plane, flood->arc_of[e], e, sides, seed, flood, faces));
+        continue;
+      }
+      const uint32_t* const v = &complex.edge[2 * size_t{e}];
+      const uint32_t line = lines.common(v[0], v[1]);
+      for (uint32_t i = lines.arc_start[line]; i < lines.arc_start[line + 1]; ++i) {
+        if (!runs_along(complex, samples, lines.arc[i], e)) continue;
+        TRY(add_rim(complex, plane, lines.arc[i], e, sides, seed, flood, faces));
+      }
+    }
+  }
+  TRY(faces->normal.push(plane.normal));
+  TRY(faces->start.push(static_cast<uint32_t>(faces->triangle.size())));
+  return faces->rim_start.push(static_cast<uint32_t>(faces->rim.size()));
+}
+
+// The plane of an arc that is not straight; none if it has no plane or is not to be looked at.
+static bool plane_of_arc(const Complex& complex, const Samples& samples, uint32_t a, Plane* plane) {
+  const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
+  const auto at = [&](uint32_t i) { return samples.position[samples.at[i]]; };
+  Vec3 normal;
+  for (uint32_t i = first + 1; i + 1 <= last; ++i) {
+    normal += cross(at(i) - at(first), at(i + 1) - at(first));
+  }
+  *plane = {at(first), unit(normal)};
+  for (uint32_t i = first; i <= last; ++i) {
+    const double off = dot(at(i) - plane->at, plane->normal);
+    if (std::fabs(off) > 0.1 * k_flat * complex.diagonal) return false;
+  }
+  return dot(normal, normal) > 0.0;
+}
+
+// Triangles at straight arcs, and those in the planes of others, which every face has, largest
+// first.
+static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                         const StraightLines& lines, Array<double>* area, Array<uint32_t>* seeds) {
+  TRY(area->assign(complex.triangle_count(), 0.0));
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    Plane plane;
+    const bool straight = lines.is_straight(a);
+    if (!straight && !plane_of_arc(complex, samples, a, &plane)) continue;
+    for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
+      if (curves.edge_of[i] == k_none) continue;
+      for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
+        if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
+        if (!straight && !in_plane(complex, plane, t)) continue;
+        (*area)[t] = twice_area(complex, t);
+        TRY(seeds->push(t));
+      }
+    }
   }
   sort(seeds->span(), [&](uint32_t a, uint32_t b) {
     return (*area)[a] != (*area)[b] ? (*area)[a] > (*area)[b] : a < b;
@@ -241,34 +387,47 @@ static Status list_seeds(const Complex& complex, const CurveEdges& curves, const
   return {};
 }
 
+static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                          const StraightLines& lines, FaceFlood* flood, FlatFaces* faces) {
+  TRY(faces->part.assign(complex.triangle_count(), FlatPart::none));
+  TRY(faces->start.push(0));
+  TRY(faces->rim_start.push(0));
+  TRY(flood->grid.build(complex.point.span()));
+  TRY(link_segments(complex, curves, flood));
+  TRY(flood->mark.assign(complex.triangle_count(), k_none));
+  TRY(flood->visits.assign(complex.triangle_count(), 0));
+  TRY(flood->seen.assign(complex.point.size(), 0));
+  TRY(flood->border_edge.resize(complex.point.size()));
+  return mark_arcs(complex, samples, curves, lines, flood);
+}
+
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const Sheet& sheet, Array<Flatness>* flatness) {
+                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
   constexpr size_t k_members_per_checkpoint = 1u << 15;
   FaceFlood flood(context);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
-  TRY(flatness->assign(complex.triangle_count(), Flatness::none));
-  TRY(flood.mark.assign(complex.triangle_count(), k_none));
-  TRY(flood.visits.assign(complex.triangle_count(), 0));
-  TRY(flood.seen.assign(complex.point.size(), 0));
-  TRY(flood.border_edge.resize(complex.point.size()));
-  TRY(mark_straight(complex, samples, curves, &flood));
-  TRY(list_seeds(complex, curves, sheet, flood, &area, &seeds));
+  TRY(start_faces(complex, samples, curves, lines, &flood, faces));
+  TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
   size_t looked_at = 0;
   for (const uint32_t seed : seeds) {
     if (flood.visits[seed] != 0) continue;
     const Plane plane = plane_of(complex, seed);
-    TRY(flood_face(complex, curves, sheet, plane, seed, &flood));
+    if (is_crossed(complex, flood, plane, seed)) continue;
+    TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
     looked_at += flood.member.size();
     if (looked_at > k_members_per_checkpoint) {
       TRY(context.checkpoint());
       looked_at = 0;
     }
-    if (!is_closed(complex, curves, flood, plane, seed)) continue;
-    const bool polygon = is_polygon(complex, curves, plane, seed, &flood);
-    for (const uint32_t t : flood.member) {
-      (*flatness)[t] = polygon ? Flatness::polygon : Flatness::plane;
-    }
+    close_face(complex, curves, lines, plane, seed, &flood);
+    if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
+    TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
+    TRY(add_face(complex, samples, curves, lines, plane, seed, &flood, faces));
+  }
+  if (faces->size() == 0) return {};
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (is_line(complex, curves, lines, t)) faces->part[t] = FlatPart::line;
   }
   return {};
 }

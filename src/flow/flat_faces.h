@@ -1,19 +1,51 @@
-// Faces of wireframes: where curves in one plane close a polygon or a ring, with nothing in it.
+// Faces in one plane that curves close, with no curve across them: polygons and discs.
 //
-// In: the complex, the samples, the curves' edges, the walls of all rooms. Out: for each triangle
-// whether it lies in such a face, and whether the face is a polygon: at least half of its border is
-// straight, and has corners rather than bends. Found by flooding coplanar triangles of the walls
-// from the largest one on; a set counts if at each of its edges off the curves it lies on both
-// sides. O(triangles log triangles). Source: the rule is our own.
+// In: the complex, the samples, the curves' edges. Out: the faces, each with its triangles and the
+// arcs that bound it. A polygon's border is straight for at least half of its length and has
+// corners rather than bends. Found by flooding coplanar triangles of the complex from those at the
+// curves, the largest first, not across curves; what has a border elsewhere is dropped. Where four
+// samples lie on a circle the complex has flat tetrahedra, and a face all their triangles: several
+// layers. Any cycle of curves counts, whether it is a face of the solid or a cross section of it
+// (flat_cells.h tells). O(triangles log triangles), times the samples near one. The rule is our
+// own; faces as cycles of a wireframe: G. Markowsky, M. A. Wesley, "Fleshing Out Wire Frames",
+// 1980.
 #pragma once
 
-#include "flow/sheet.h"
+#include "flow/straight_lines.h"
 
 namespace wireskin::flow {
 
-enum class Flatness : uint8_t { none, plane, polygon };
+inline constexpr double k_flat = 1e-3;         // of the diagonal, off the plane
+inline constexpr double k_same_line = 0.9985;  // cosine of the angle that is none: 3 degrees
+
+enum class FlatPart : uint8_t { none, disc, polygon, line };
+
+// An arc that bounds a face, and the direction from it into the face.
+struct FaceRim {
+  uint32_t arc;
+  Vec3 into;
+};
+
+struct FlatFaces {
+  Array<uint32_t> start, triangle;  // of face f: triangle[start[f]] .. triangle[start[f + 1] - 1]
+  Array<Vec3> normal;               // of each face
+  Array<uint8_t> polygon;           // of each face: 0 for a disc
+  Array<uint32_t> rim_start;
+  Array<FaceRim> rim;    // of each face, an arc once
+  Array<FlatPart> part;  // of each triangle; a line: its corners lie on one, so in no plane
+
+  explicit FlatFaces(Context& context)
+      : start(context),
+        triangle(context),
+        normal(context),
+        polygon(context),
+        rim_start(context),
+        rim(context),
+        part(context) {}
+  uint32_t size() const { return static_cast<uint32_t>(normal.size()); }
+};
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const Sheet& sheet, Array<Flatness>* flatness);
+                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces);
 
 }  // namespace wireskin::flow

@@ -1,7 +1,6 @@
 #include "flow/flow.h"
 
 #include "flow/bend_arcs.h"
-#include "flow/loose_walls.h"
 #include "num/minmax.h"
 
 namespace wireskin::flow {
@@ -30,9 +29,13 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   TRY(context.enter(Stage::network));
   TRY(build_complex(context, flow->samples.position.span(), options.complex, &flow->complex));
   TRY(find_curve_edges(flow->complex, flow->samples, &flow->curves));
-  Array<uint8_t> loose(context);
-  return find_persistence_of_faces(context, flow->complex, flow->samples, flow->curves,
-                                   &flow->flatness, &flow->persistence, &loose);
+  StraightLines lines(context);
+  FlatFaces faces(context);
+  TRY(find_straight_lines(flow->complex, flow->samples, &lines));
+  TRY(find_flat_faces(context, flow->complex, flow->samples, flow->curves, lines, &faces));
+  TRY(find_flat_cells(context, flow->complex, flow->samples, flow->curves, lines, faces,
+                      &flow->cells));
+  return find_persistence(context, flow->complex, &flow->persistence, flow->cells.turn.span());
 }
 
 // Components of walls and curves, counted over all samples.
@@ -88,11 +91,11 @@ static Status count_reconstruction(Context& context, const Flow& flow, Reconstru
 Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptions& options,
                    Reconstruction* result) {
   TRY(context.enter(Stage::patches));
-  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.flatness.span(),
-                           flow.persistence, options.topology, &result->topology));
-  TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.persistence, flow.tangents,
-                        options.thicken, &result->topology));
-  TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.persistence,
+  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.cells, flow.persistence,
+                           options.topology, &result->topology));
+  TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.cells, flow.persistence,
+                        flow.tangents, options.thicken, &result->topology));
+  TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.cells, flow.persistence,
                   result->topology, &result->patches));
   return count_reconstruction(context, flow, result);
 }

@@ -7,7 +7,7 @@
 // version of it: U. Bauer, F. Roll, "Wrapping Cycles in Delaunay Complexes", 2024.
 #pragma once
 
-#include "flow/flat_faces.h"
+#include "flow/flat_cells.h"
 #include "flow/patches.h"
 #include "flow/thicken.h"
 
@@ -30,7 +30,7 @@ struct Flow {
   Samples samples;
   Complex complex;
   CurveEdges curves;
-  Array<Flatness> flatness;  // of each triangle of the complex
+  FlatCells cells;
   Persistence persistence;
   SampleTangents tangents;
 
@@ -39,7 +39,7 @@ struct Flow {
         samples(context),
         complex(context),
         curves(context),
-        flatness(context),
+        cells(context),
         persistence(context),
         tangents(context) {}
 };

@@ -129,19 +129,40 @@ static bool takes(const Classes& classes, uint32_t c, size_t first, uint32_t oth
   return false;
 }
 
+// Where the classes are looked up: walls, rooms and what is known of flat faces.
+struct TailSearch {
+  const FlatCells& cells;
+  const Persistence& persistence;
+  const Topology3& topology;
+};
+
+// A strip of a flat face, with one void on both sides, from where another wall merged into the face
+// to the curve that they should meet at.
+static bool is_flat_tail(const Complex& complex, const TailSearch& search, uint32_t t) {
+  if (search.cells.turn.empty() || search.cells.turn[t] != Pass::late) return false;
+  uint32_t label[2];
+  for (uint32_t k = 0; k < 2; ++k) {
+    const uint32_t side = complex.triangle_side[2 * size_t{t} + k];
+    label[k] = search.topology.label[side == k_none ? complex.tet_count() : side];
+  }
+  return label[0] == label[1];
+}
+
 // The ear in the walls at a chord of the border, or the tail at an edge where sheets merge.
 static uint32_t continuation(const Complex& complex, const CurveEdges& curves,
-                             const Persistence& persistence, const Sheet& walls,
-                             const Classes& classes, uint32_t e) {
+                             const TailSearch& search, const Classes& classes, uint32_t e) {
+  const Sheet& walls = search.topology.walls;
   if (curves.on_curve(e)) return k_none;
   if (is_chord(curves, e)) {
     const uint32_t ear = ear_of(complex, curves, e);
     const bool here = walls.in[ear] != 0 && classes.kind[classes.of[ear]] == Kind::ear;
     return here ? classes.of[ear] : k_none;
   }
-  if (walls.degree[e] < 3 || complex.edge_gabriel[e] != 0) return k_none;
+  if (walls.degree[e] < 3) return k_none;
   for (const uint32_t t : complex.triangles_of(e)) {
-    if (walls.in[t] != 0 && persistence.creator[t] == 0 &&
+    if (walls.in[t] == 0) continue;
+    if (is_flat_tail(complex, search, t)) return classes.of[t];
+    if (complex.edge_gabriel[e] == 0 && search.persistence.creator[t] == 0 &&
         complex.triangle_value[t] == complex.edge_value[e]) {
       return classes.of[t];
     }
@@ -151,14 +172,14 @@ static uint32_t continuation(const Complex& complex, const CurveEdges& curves,
 
 // Lets class c take over ears and tails until its border is on curves, or nothing more is found.
 static Status take_continuations(const Complex& complex, const CurveEdges& curves,
-                                 const Persistence& persistence, const Sheet& walls, uint32_t c,
-                                 Classes* classes, Border* border) {
+                                 const TailSearch& search, uint32_t c, Classes* classes,
+                                 Border* border) {
   const size_t first = classes->taken.size();
   TRY(toggle_triangles(complex, classes->part(c), border));
   for (size_t i = 0; i < border->edge.size(); ++i) {
     const uint32_t e = border->edge[i];
     if (border->odd[e] == 0) continue;
-    const uint32_t other = continuation(complex, curves, persistence, walls, *classes, e);
+    const uint32_t other = continuation(complex, curves, search, *classes, e);
     if (other == k_none || other == c || takes(*classes, c, first, other)) continue;
     TRY(classes->taken_by.push(c));
     TRY(classes->taken.push(other));
@@ -169,12 +190,11 @@ static Status take_continuations(const Complex& complex, const CurveEdges& curve
 }
 
 static Status find_tails(Context& context, const Complex& complex, const CurveEdges& curves,
-                         const Persistence& persistence, const Sheet& walls, Classes* classes,
-                         Border* border) {
+                         const TailSearch& search, Classes* classes, Border* border) {
   for (uint32_t c = 0; c < classes->kind.size(); ++c) {
     if (c % 256 == 0) TRY(context.checkpoint());
     if (classes->kind[c] == Kind::ear) continue;
-    TRY(take_continuations(complex, curves, persistence, walls, c, classes, border));
+    TRY(take_continuations(complex, curves, search, c, classes, border));
   }
   for (const uint32_t other : classes->taken) {
     if (classes->kind[other] == Kind::patch) classes->kind[other] = Kind::tail;
@@ -249,7 +269,7 @@ static Status own_rest(const Complex& complex, const CurveEdges& curves, const S
 }
 
 Status cut_patches(Context& context, const Complex& complex, const CurveEdges& curves,
-                   const Samples& samples, const Persistence& persistence,
+                   const Samples& samples, const FlatCells& cells, const Persistence& persistence,
                    const Topology3& topology, Patches* patches) {
   Classes classes(context);
   Border border(context);
@@ -259,7 +279,7 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
   TRY(border.touched.assign(complex.edge_count(), 0));
   TRY(find_classes(complex, curves, topology.walls, &classes));
   TRY(find_ears(complex, curves, &classes, &border));
-  TRY(find_tails(context, complex, curves, persistence, topology.walls, &classes, &border));
+  TRY(find_tails(context, complex, curves, {cells, persistence, topology}, &classes, &border));
   TRY(find_sides(complex, persistence, topology, &side));
   TRY(orient_walls(context, complex, topology.walls, side.span(), &patches->turned));
   TRY(patches->owner.assign(complex.triangle_count(), k_none));

@@ -53,7 +53,7 @@ struct Patches {
 };
 
 Status cut_patches(Context& context, const Complex& complex, const CurveEdges& curves,
-                   const Samples& samples, const Persistence& persistence,
+                   const Samples& samples, const FlatCells& cells, const Persistence& persistence,
                    const Topology3& topology, Patches* patches);
 
 }  // namespace wireskin::flow

@@ -9,6 +9,7 @@
 namespace wireskin::flow {
 
 static constexpr double k_least_ratio = 1.0 + 1e-6;
+static constexpr double k_flat_share = 0.98;  // of the squared radius: one in a hundred of it
 
 // Components of the complement of the balls as the radius shrinks: union-find over the tetrahedra
 // and, as the last node, the outside. Each root knows the maximum of its component.
@@ -43,17 +44,31 @@ static uint64_t descending_bits(double value) {
   return ~bits;
 }
 
-// By decreasing value, then number; loose ones, whose first bit is cleared, before all others.
-static Status sort_triangles(Context& context, const Complex& complex, Span<const uint8_t> loose,
-                             Array<BitsKey>* keys) {
+static bool is_in_turn(Pass pass, Pass now) {
+  return pass == now || (pass == Pass::flat && now == Pass::by_radius);
+}
+
+// By their turn, then decreasing value, then number.
+static Status sort_triangles(Context& context, const Complex& complex, Span<const Pass> turn,
+                             Array<BitsKey>* keys, Array<uint32_t>* order) {
   const uint32_t count = complex.triangle_count();
   TRY(keys->resize(count));
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t t = count - 1 - i;
-    const uint64_t bits = descending_bits(complex.triangle_value[t]);
-    (*keys)[i] = {!loose.empty() && loose[t] != 0 ? bits & ~(uint64_t{1} << 63) : bits, t};
+    const bool flat = !turn.empty() && turn[t] == Pass::flat;
+    const double value = complex.triangle_value[t];
+    (*keys)[i] = {descending_bits(flat ? k_flat_share * value : value), t};
   }
-  return radix_sort(context, keys);
+  TRY(radix_sort(context, keys));
+  TRY(order->reserve(count));
+  constexpr Pass k_turns[4] = {Pass::first, Pass::by_radius, Pass::late, Pass::last};
+  for (const Pass now : k_turns) {
+    if (turn.empty() && now != Pass::by_radius) continue;
+    for (const BitsKey& key : *keys) {
+      if (turn.empty() || is_in_turn(turn[key.index], now)) order->push_reserved(key.index);
+    }
+  }
+  return {};
 }
 
 static Void describe_void(const Complex& complex, uint32_t creator, uint32_t maximum) {
@@ -66,16 +81,17 @@ static Void describe_void(const Complex& complex, uint32_t creator, uint32_t max
 }
 
 static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
-                         Span<const uint8_t> loose, Persistence* persistence) {
+                         Span<const Pass> turn, Persistence* persistence) {
   Array<Void>& voids = persistence->voids;
   voids.clear();
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (maximum_of[t] == k_none) continue;
     Void one = describe_void(complex, t, maximum_of[t]);
-    one.loose = !loose.empty() && loose[t] != 0;
-    if (one.ratio > k_least_ratio) TRY(voids.push(one));
+    one.held = !turn.empty() && turn[t] == Pass::last;
+    if (one.held || one.ratio > k_least_ratio) TRY(voids.push(one));
   }
   sort(voids.span(), [](const Void& a, const Void& b) {
+    if (a.held != b.held) return a.held;
     return a.ratio != b.ratio ? a.ratio > b.ratio : a.creator < b.creator;
   });
   TRY(persistence->void_of.assign(complex.triangle_count(), k_none));
@@ -84,21 +100,21 @@ static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of
 }
 
 Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
-                        Span<const uint8_t> loose) {
+                        Span<const Pass> turn) {
   constexpr size_t k_triangles_per_checkpoint = 1u << 16;
   const uint32_t outside = complex.tet_count();
   Array<BitsKey> keys(context);
-  Array<uint32_t> maximum_of(context);
+  Array<uint32_t> order(context), maximum_of(context);
   VoidForest voids(context);
-  TRY(sort_triangles(context, complex, loose, &keys));
+  TRY(sort_triangles(context, complex, turn, &keys, &order));
   TRY(maximum_of.assign(complex.triangle_count(), k_none));
   TRY(persistence->creator.assign(complex.triangle_count(), 0));
   TRY(voids.parent.resize(outside + 1));
   TRY(voids.maximum.resize(outside + 1));
   for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
-  for (size_t i = 0; i < keys.size(); ++i) {
+  for (size_t i = 0; i < order.size(); ++i) {
     if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
-    const uint32_t t = keys[i].index;
+    const uint32_t t = order[i];
     const uint32_t a = complex.triangle_side[2 * t];
     const uint32_t b = complex.triangle_side[2 * t + 1];
     uint32_t low = voids.root_of(a == k_none ? outside : a);
@@ -109,7 +125,7 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
     maximum_of[t] = voids.maximum[low];
     voids.parent[low] = high;
   }
-  return list_voids(complex, maximum_of.span(), loose, persistence);
+  return list_voids(complex, maximum_of.span(), turn, persistence);
 }
 
 }  // namespace wireskin::flow

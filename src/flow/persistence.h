@@ -20,20 +20,25 @@ struct Void {
   double filling;    // radius at which the maximum fills it: sqrt F, capped
   double ratio;  // filling / creation with both capped at sqrt(3/8) diagonal, the largest that a
                  // true maximum can have (H. Jung, 1901)
-  bool loose;    // the creator lies in a loose wall
+  bool held;     // the creator is passed last
 };
+
+// When a triangle is passed: before all others; by its radius, or a little later than that, for
+// walls that curves hold are surer than those of about the same radius in mid-air; after those; at
+// last.
+enum class Pass : uint8_t { first, by_radius, flat, late, last };
 
 struct Persistence {
   explicit Persistence(Context& context) : creator(context), void_of(context), voids(context) {}
 
   Array<uint8_t> creator;   // for each triangle 1, or 0 for a destroyer
   Array<uint32_t> void_of;  // for each triangle its place in voids, or k_none
-  Array<Void> voids;        // ratio > 1 + 1e-6, by decreasing ratio, then creator
+  Array<Void> voids;  // held, or of ratio > 1 + 1e-6; held first, by decreasing ratio, then creator
 };
 
-// Triangles marked `loose`, if any are, are passed before all others, so that what they part counts
-// as one void (loose_walls.h).
+// What is passed first parts nothing; what is passed last parts all that only it parts, however
+// narrow or wide it is there (flat_cells.h). No turns: all by radius.
 Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
-                        Span<const uint8_t> loose = {});
+                        Span<const Pass> turn = {});
 
 }  // namespace wireskin::flow

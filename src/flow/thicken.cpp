@@ -133,7 +133,7 @@ static uint32_t room_at(const Complex& complex, const Cells& cells, uint32_t tri
 }
 
 // The classes of triangles under edges that are no curve and have two of them.
-static Status number_walls(const Complex& complex, const CurveEdges& curves,
+static Status number_walls(const Complex& complex, const CurveEdges& curves, const FlatCells& flat,
                            const SampleTangents& tangents, const Topology3& topology,
                            Cells* cells) {
   Array<uint32_t>& queue = cells->triangle;
@@ -160,12 +160,14 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves,
     }
     const Span<const uint32_t> part = queue.span().part(first, queue.size() - first);
     TRY(cells->start.push(static_cast<uint32_t>(queue.size())));
-    TRY(cells->wall.push({{room_at(complex, *cells, t, 0), room_at(complex, *cells, t, 1)},
-                          value,
-                          feasibility_of(complex, tangents, part),
-                          k_none,
-                          topology.walls.in[t] != 0,
-                          topology.closed.in[t] == 0}));
+    TRY(cells->wall.push(
+        {{room_at(complex, *cells, t, 0), room_at(complex, *cells, t, 1)},
+         value,
+         feasibility_of(complex, tangents, part),
+         k_none,
+         topology.walls.in[t] != 0,
+         topology.closed.in[t] == 0 &&
+             !measure_border(complex, curves, flat, cells->sheet, part).is_idle()}));
   }
   return {};
 }
@@ -186,18 +188,16 @@ static Status link_rooms(Cells* cells) {
 }
 
 static Status find_cells(Context& context, const Complex& complex, const CurveEdges& curves,
-                         const Persistence& persistence, const SampleTangents& tangents,
-                         const Topology3& topology, Cells* cells) {
+                         const FlatCells& flat, const Persistence& persistence,
+                         const SampleTangents& tangents, const Topology3& topology, Cells* cells) {
   TRY(start_sheet(complex, &cells->sheet));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     const uint32_t v = persistence.void_of[t];
-    if (persistence.creator[t] == 0 || (v != k_none && !persistence.voids[v].loose)) {
-      add_to_sheet(complex, t, &cells->sheet);
-    }
+    if (persistence.creator[t] == 0 || v != k_none) add_to_sheet(complex, t, &cells->sheet);
   }
   peel(complex, curves, Protect::curves, &cells->sheet);
   TRY(number_rooms(context, complex, topology.label.span(), cells));
-  TRY(number_walls(complex, curves, tangents, topology, cells));
+  TRY(number_walls(complex, curves, flat, tangents, topology, cells));
   TRY(link_rooms(cells));
   for (const Void& v : persistence.voids) {
     const uint32_t wall = cells->wall_of[v.creator];
@@ -316,13 +316,14 @@ static Status empty_rooms(Context& context, uint32_t outside_label, bool inside_
 }
 
 Status thicken_and_prune(Context& context, const Complex& complex, const CurveEdges& curves,
-                         const Persistence& persistence, const SampleTangents& tangents,
-                         const ThickenOptions& options, Topology3* topology) {
+                         const FlatCells& flat, const Persistence& persistence,
+                         const SampleTangents& tangents, const ThickenOptions& options,
+                         Topology3* topology) {
   if (topology->chosen.empty() || !(options.reach > 0.0)) return {};
   Cells cells(context);
   Array<uint8_t> added(context), opened(context);
   bool any = false;
-  TRY(find_cells(context, complex, curves, persistence, tangents, *topology, &cells));
+  TRY(find_cells(context, complex, curves, flat, persistence, tangents, *topology, &cells));
   TRY(context.checkpoint());
   TRY(fill_rooms(complex, persistence, *topology, options.reach, &added, &cells, &any));
   if (!any) return {};

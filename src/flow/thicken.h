@@ -31,7 +31,8 @@ Status find_tangents(const Samples& samples, SampleTangents* tangents);
 
 // Updates topology->walls and ->label.
 Status thicken_and_prune(Context& context, const Complex& complex, const CurveEdges& curves,
-                         const Persistence& persistence, const SampleTangents& tangents,
-                         const ThickenOptions& options, Topology3* topology);
+                         const FlatCells& flat, const Persistence& persistence,
+                         const SampleTangents& tangents, const ThickenOptions& options,
+                         Topology3* topology);
 
 }  // namespace wireskin::flow

@@ -7,10 +7,8 @@ namespace wireskin::flow {
 static constexpr uint32_t k_most_tries = 200;
 // Of a wall's border that may lie off the curves.
 static constexpr double k_loose_share = 0.1;
-// Above the noise of rounding, for a void behind a polygon; and its volume, of the power 3/2 of the
-// polygon's area: two sheets in one plane are none.
-static constexpr double k_least_polygon_ratio = 1.0005;
-static constexpr double k_least_polygon_volume = 1e-3;
+// Of a void that curves wait for: above the noise of rounding.
+static constexpr double k_least_wanted = 1.0005;
 
 static uint32_t side_of(const Complex& complex, uint32_t triangle, uint32_t side) {
   const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
@@ -84,35 +82,32 @@ static bool is_tip(const Complex& complex, const CurveEdges& curves, const Sheet
   return tip;
 }
 
-// Whether the wall that a creator lies in ends on curves, or at least on chords.
-static bool bounded_by_curves(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
-                              Span<const uint32_t> wall) {
-  double whole = 0.0, loose = 0.0;
+// Where a wall ends off the curves at a flat face that waits for others.
+static bool meets_late_face(const Complex& complex, const FlatCells& cells, uint32_t e) {
+  if (cells.turn.empty()) return false;
+  for (const uint32_t t : complex.triangles_of(e)) {
+    if (cells.turn[t] == Pass::late) return true;
+  }
+  return false;
+}
+
+WallBorder measure_border(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
+                          const Sheet& sheet, Span<const uint32_t> wall) {
+  WallBorder border;
   for (const uint32_t t : wall) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
       const bool by_curve = curves.by_curve(e);
       if (!by_curve && sheet.degree[e] == 2) continue;
-      whole += edge_length(complex, e);
-      if (!by_curve) loose += edge_length(complex, e);
+      const double size = edge_length(complex, e);
+      border.whole += size;
+      if (!by_curve) border.loose += size;
+      if (!by_curve && meets_late_face(complex, cells, e)) border.in_face += size;
+      if (by_curve && cells.need[e] == Need::settled) border.settled += size;
+      if (by_curve && cells.need[e] == Need::waiting) border.waiting += size;
     }
   }
-  return loose <= k_loose_share * whole;
-}
-
-// Cuts the list where the ratios fall most.
-static void cut_at_gap(const Persistence& persistence, Array<uint32_t>* chosen) {
-  double greatest = 0.0;
-  size_t kept = 0;
-  for (size_t i = 0; i < chosen->size(); ++i) {
-    const double next = i + 1 < chosen->size() ? persistence.voids[(*chosen)[i + 1]].ratio : 1.0;
-    const double gap = persistence.voids[(*chosen)[i]].ratio / next;
-    if (gap > greatest) {
-      greatest = gap;
-      kept = i + 1;
-    }
-  }
-  chosen->shrink(kept);
+  return border;
 }
 
 namespace {
@@ -142,11 +137,17 @@ static Status start_trial(const Complex& complex, const Persistence& persistence
   return {};
 }
 
-enum class Verdict : uint8_t { accepted, unbounded, gone };
+struct Choice {
+  uint32_t place;  // in Persistence::voids
+  double ratio;
+  bool wanted;
+};
+
+enum class Verdict : uint8_t { wanted, accepted, unbounded, gone };
 
 // Whether the creator's wall holds, together with those chosen before.
-static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_t creator,
-                       uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
+static Status try_void(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
+                       uint32_t creator, uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
   TRY(copy_sheet(trial->all, &trial->peeled));
   add_to_sheet(complex, creator, &trial->peeled);
   peel(complex, curves, Protect::curves, &trial->peeled);
@@ -155,110 +156,74 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_
   TRY(flood_patch(complex, curves, trial->peeled, creator, stamp, trial->mark.span(),
                   &trial->wall));
   if (is_tip(complex, curves, trial->peeled, trial->wall.span(), trial->odd.span())) return {};
-  const bool bounded = bounded_by_curves(complex, curves, trial->peeled, trial->wall.span());
-  *verdict = bounded ? Verdict::accepted : Verdict::unbounded;
+  const WallBorder border =
+      measure_border(complex, curves, cells, trial->peeled, trial->wall.span());
+  const bool bounded = border.loose <= k_loose_share * border.whole && !border.is_idle();
+  *verdict = border.is_wanted() ? Verdict::wanted
+             : bounded          ? Verdict::accepted
+                                : Verdict::unbounded;
   return {};
 }
 
-// The volume of a room, and the area of a wall.
-static double room_volume(const Complex& complex, Span<const uint32_t> label, uint32_t room) {
-  double six = 0.0;
-  for (uint32_t i = 0; i < complex.tet_count(); ++i) {
-    if (label[i] != room) continue;
-    const uint32_t* const v = &complex.tet[4 * size_t{i}];
-    const Vec3& a = complex.point[v[0]];
-    six += dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
-  }
-  return six / 6.0;
-}
-
-static double wall_area(const Complex& complex, Span<const uint32_t> wall) {
-  double twice = 0.0;
-  for (const uint32_t t : wall) {
-    const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-    const Vec3& a = complex.point[v[0]];
-    twice += length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
-  }
-  return 0.5 * twice;
-}
-
-// Whether the wall tried last keeps the outside from a room worth the name.
-static Status closes_room(const Complex& complex, const VoidTrial& trial, uint32_t creator,
-                          bool* closes) {
-  Array<uint32_t> label(trial.mark.context());
-  TRY(label_rooms(complex, trial.peeled, &label));
-  const uint32_t outside = label[complex.tet_count()];
-  const uint32_t a = label[side_of(complex, creator, 0)], b = label[side_of(complex, creator, 1)];
-  *closes = false;
-  if (a == b || (a != outside && b != outside)) return {};
-  const double area = wall_area(complex, trial.wall.span());
-  const double volume = room_volume(complex, label.span(), a == outside ? b : a);
-  *closes = volume > k_least_polygon_volume * area * std::sqrt(area);
-  return {};
-}
-
-static bool among(Span<const uint32_t> list, uint32_t i) {
-  for (const uint32_t other : list) {
-    if (other == i) return true;
-  }
-  return false;
-}
-
-// A polygon is a face, however wide open a room would be without it: pyramids and plates are hardly
-// narrower at the base than within. Only towards the outside: within, such a face is no wall.
-static Status close_polygons(Context& context, const Complex& complex, const CurveEdges& curves,
-                             Span<const Flatness> flatness, const Persistence& persistence,
-                             Array<uint32_t>* chosen) {
+// All that hold; down to a lesser ratio those that curves wait for, if any do.
+static Status try_voids(Context& context, const Complex& complex, const CurveEdges& curves,
+                        const FlatCells& cells, const Persistence& persistence, double least_ratio,
+                        size_t wished, Array<Choice>* choices, Array<uint32_t>* unbounded) {
   VoidTrial trial(context);
   uint32_t tries = 0;
-  for (uint32_t i = 0; i < persistence.voids.size() && tries < k_most_tries; ++i) {
+  bool waiting = false;
+  for (const Need n : cells.need) waiting = waiting || n == Need::waiting;
+  TRY(start_trial(complex, persistence, {}, &trial));
+  for (uint32_t i = 0; i < persistence.voids.size() && choices->size() < wished; ++i) {
     const Void& v = persistence.voids[i];
-    if (v.ratio < k_least_polygon_ratio) break;
-    if (v.loose || flatness[v.creator] != Flatness::polygon || among(chosen->span(), i)) continue;
-    if (tries++ == 0) TRY(start_trial(complex, persistence, chosen->span(), &trial));
-    TRY(context.checkpoint());
-    Verdict verdict = Verdict::gone;
-    bool closes = false;
-    TRY(try_void(complex, curves, v.creator, i, &trial, &verdict));
-    if (verdict == Verdict::accepted) TRY(closes_room(complex, trial, v.creator, &closes));
-    if (!closes) continue;
+    const bool high = v.ratio >= least_ratio;
+    Verdict verdict = v.held ? Verdict::wanted : Verdict::gone;
+    if (!v.held && (high || (waiting && v.ratio >= k_least_wanted)) && tries < k_most_tries) {
+      ++tries;
+      TRY(context.checkpoint());
+      TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
+    }
+    if (verdict == Verdict::unbounded) TRY(unbounded->push(i));
+    if (verdict != Verdict::wanted && (verdict != Verdict::accepted || !high)) continue;
     add_to_sheet(complex, v.creator, &trial.all);
-    TRY(chosen->push(i));
+    TRY(choices->push({i, v.ratio, verdict == Verdict::wanted}));
   }
   return {};
+}
+
+// Cuts the list where the ratios fall most, but for voids that are wanted.
+static void cut_at_gap(Array<Choice>* choices) {
+  double greatest = 0.0;
+  size_t first_cut = 0, kept = 0;
+  sort(choices->span(), [](const Choice& a, const Choice& b) {
+    return a.ratio != b.ratio ? a.ratio > b.ratio : a.place < b.place;
+  });
+  for (size_t i = 0; i < choices->size(); ++i) {
+    const double next = i + 1 < choices->size() ? (*choices)[i + 1].ratio : 1.0;
+    const double gap = (*choices)[i].ratio / next;
+    if (gap > greatest) {
+      greatest = gap;
+      first_cut = i + 1;
+    }
+  }
+  for (size_t i = 0; i < choices->size(); ++i) {
+    if (i < first_cut || (*choices)[i].wanted) (*choices)[kept++] = (*choices)[i];
+  }
+  choices->shrink(kept);
 }
 
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    Span<const Flatness> flatness, const Persistence& persistence,
+                    const FlatCells& cells, const Persistence& persistence,
                     const TopologyOptions& options, Array<uint32_t>* chosen) {
   const bool automatic = options.voids < 0;
   const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
-  VoidTrial trial(context);
+  Array<Choice> choices(context);
   Array<uint32_t> unbounded(context);
+  TRY(try_voids(context, complex, curves, cells, persistence, automatic ? options.least_ratio : 1.0,
+                wished, &choices, &unbounded));
+  if (automatic) cut_at_gap(&choices);
   chosen->clear();
-  TRY(start_trial(complex, persistence, {}, &trial));
-  for (uint32_t i = 0; i < persistence.voids.size() && i < k_most_tries; ++i) {
-    if (automatic && persistence.voids[i].ratio < options.least_ratio) break;
-    if (chosen->size() == wished) break;
-    if (persistence.voids[i].loose) {
-      TRY(unbounded.push(i));
-      continue;
-    }
-    TRY(context.checkpoint());
-    const uint32_t creator = persistence.voids[i].creator;
-    Verdict verdict = Verdict::gone;
-    TRY(try_void(complex, curves, creator, i, &trial, &verdict));
-    if (verdict == Verdict::unbounded) TRY(unbounded.push(i));
-    if (verdict != Verdict::accepted) continue;
-    add_to_sheet(complex, creator, &trial.all);
-    TRY(chosen->push(i));
-  }
-  if (automatic) {
-    cut_at_gap(persistence, chosen);
-    if (!flatness.empty()) {
-      TRY(close_polygons(context, complex, curves, flatness, persistence, chosen));
-    }
-  }
+  for (const Choice& c : choices) TRY(chosen->push(c.place));
   // Who asks for a number gets it as far as anything is caged at all.
   for (size_t k = 0; !automatic && k < unbounded.size() && chosen->size() < wished; ++k) {
     TRY(chosen->push(unbounded[k]));
@@ -268,20 +233,24 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
 
 // ---- Handles and walls --------------------------------------------------------------------------
 
-static bool same_void(const Complex& complex, Span<const uint32_t> label, uint32_t triangle) {
-  return label[side_of(complex, triangle, 0)] == label[side_of(complex, triangle, 1)];
+// Whether the triangle may go: one void is on both sides, and it is not part of a sure face.
+static bool may_go(const Complex& complex, const FlatCells& cells, const Topology3& topology,
+                   uint32_t triangle) {
+  if (!cells.turn.empty() && cells.turn[triangle] == Pass::late) return false;
+  return topology.label[side_of(complex, triangle, 0)] ==
+         topology.label[side_of(complex, triangle, 1)];
 }
 
 // Opens handles: triangles with one void on both sides that are part of no fin.
 static Status open_handles(Context& context, const Complex& complex, const CurveEdges& curves,
-                           Topology3* topology) {
+                           const FlatCells& cells, Topology3* topology) {
   Sheet& walls = topology->walls;
   Sheet finless(context);
   Array<uint32_t> order(context);
   TRY(copy_sheet(walls, &finless));
   peel(complex, curves, Protect::nothing, &finless);
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (finless.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+    if (finless.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
   for (const uint32_t t : order) {
@@ -339,14 +308,14 @@ static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, 
 // good, and with it all that joins it later, for there are only ever fewer triangles; and one whose
 // border is closed has no neighbour that it could join. So each is looked at once.
 static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
-                                Topology3* topology) {
+                                const FlatCells& cells, Topology3* topology) {
   constexpr size_t k_work_per_checkpoint = 1u << 14;
   Sheet& walls = topology->walls;
   Array<uint32_t> order(context), wall(context);
   Array<Settled> settled(context);
   TRY(settled.assign(complex.triangle_count(), Settled::no));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (walls.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+    if (walls.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
   size_t work = 0;
@@ -370,9 +339,9 @@ static Status remove_open_walls(Context& context, const Complex& complex, const 
 }
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            Span<const Flatness> flatness, const Persistence& persistence,
+                            const FlatCells& cells, const Persistence& persistence,
                             const TopologyOptions& options, Topology3* topology) {
-  TRY(choose_voids(context, complex, curves, flatness, persistence, options, &topology->chosen));
+  TRY(choose_voids(context, complex, curves, cells, persistence, options, &topology->chosen));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
@@ -384,8 +353,8 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
   peel(complex, curves, Protect::curves, &walls);
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));
-  TRY(open_handles(context, complex, curves, topology));
-  if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, topology));
+  TRY(open_handles(context, complex, curves, cells, topology));
+  if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, cells, topology));
   return {};
 }
 

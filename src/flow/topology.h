@@ -5,15 +5,15 @@
 // left after peeling, opening of handles and removal of walls that no curve bounds. Invariants: the
 // walls separate exactly the chosen voids and the outside from each other; no piece of curve that
 // had a triangle loses its last one. Method: destroyers and chosen creators, peeled from all edges
-// but the curves'; a void counts only if its wall ends on curves, which triangulations of nearly
-// round tubes feign; a flat polygon between a room and the outside counts whatever the room's
-// ratio; then triangles with the same void on both sides go, greatest radius first, as far as they
-// are not fins. O(triangles) for a void tried, near-linear else. Source: B. Sadri, K. Singh,
-// "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3 and figure 13.
+// but the curves; a void counts only if its wall ends on curves that have use for it, which
+// triangulations of nearly round tubes feign; voids behind flat faces, and those that wait for one
+// more face, count whatever their ratio; then triangles with the same void on both sides go,
+// greatest radius first, as far as they are not fins. O(triangles) for a void tried, near-linear
+// else. Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014,
+// section 4.3 and figure 13.
 #pragma once
 
-#include "flow/flat_faces.h"
-#include "flow/persistence.h"
+#include "flow/flat_cells.h"
 #include "flow/sheet.h"
 
 namespace wireskin::flow {
@@ -36,17 +36,35 @@ struct Topology3 {
       : chosen(context), walls(context), closed(context), label(context) {}
 };
 
+// What a wall ends on, as lengths.
+struct WallBorder {
+  double whole = 0.0;
+  double loose = 0.0;    // off the curves and their chords
+  double in_face = 0.0;  // of that, where it merges into a flat face that waits for others
+  double settled = 0.0;  // on curves that have no use for the wall
+  double waiting = 0.0;  // on curves that have a flat face on their other side
+
+  // No curve is there for the sake of the wall, or few.
+  bool is_idle() const { return loose + settled > 0.6 * whole; }
+  // Curves are there that lack only this wall; it may reach the flat faces at them a little early.
+  bool is_wanted() const {
+    return waiting >= 0.6 * whole && settled + loose - in_face <= 0.1 * whole;
+  }
+};
+
+WallBorder measure_border(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
+                          const Sheet& sheet, Span<const uint32_t> wall);
+
 // The components of the complement of a sheet: joins all tetrahedra not separated by it. The
 // outside is the last entry. Labels are least members.
 Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* label);
 
-// `flatness` is empty where flat faces are nothing special.
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    Span<const Flatness> flatness, const Persistence& persistence,
+                    const FlatCells& cells, const Persistence& persistence,
                     const TopologyOptions& options, Array<uint32_t>* chosen);
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            Span<const Flatness> flatness, const Persistence& persistence,
+                            const FlatCells& cells, const Persistence& persistence,
                             const TopologyOptions& options, Topology3* topology);
 
 }  // namespace wireskin::flow

@@ -166,6 +166,21 @@ inline Net box_with_handle(double tube) {
   return net;
 }
 
+// A square hole from the top down, through all of it or part of it.
+inline Net box_with_hole(double depth) {
+  Net net;
+  add_box(net, {0, 0, 0}, {3, 3, 1});
+  add_box(net, {1, 1, 1 - depth}, {2, 2, 1});
+  return net;
+}
+
+inline Net box_on_a_box() {
+  Net net;
+  add_box(net, {0, 0, 0}, {3, 3, 1});
+  add_box(net, {0.5, 1, 1}, {1.5, 2, 2.5});
+  return net;
+}
+
 inline Net centred_cube() {
   Net net;
   add_box(net, {-1, -1, -1}, {1, 1, 1});
@@ -257,8 +272,11 @@ inline Net ellipsoid_of_ellipses(double a, double b, double c) {
   return net;
 }
 
-// A ring of curves all round the inside, narrower than both sides of it, is a wall: so the waist of
-// the hourglass, and the triangle in the middle of the bipyramid of three sides, part two rooms.
+// Every curve of a wireframe is where two faces make a crease. Without the ring round its middle
+// the bipyramid still has all its creases, whatever its number of sides, and so has the hourglass
+// its waist: these are one solid, as the bipyramids of more sides are, and no drawing of either
+// could do without the ring. Between boxes in a row the ring lies in flat sides: there a wall must
+// be meant.
 inline std::vector<Expected> more_unseen_networks() {
   const Outline letter_t = {{0, 2}, {0, 3}, {3, 3}, {3, 2}, {2, 2}, {2, 0}, {1, 0}, {1, 2}};
   const Outline letter_z = {{0, 0},   {3, 0},    {3, 1},    {1.5, 1},
@@ -277,7 +295,7 @@ inline std::vector<Expected> more_unseen_networks() {
       {"pyramid 8", pyramid(8, 3.0), {1, 0, 1}, 9},
       {"oblique pyramid 4", oblique_pyramid(4, {0.8, 0.3, 2.0}), {1, 0, 1}, 5},
       {"oblique pyramid 5", oblique_pyramid(5, {0.5, -0.4, 2.5}), {1, 0, 1}, 6},
-      {"bipyramid 3", bipyramid(3, 1.5, 1.5), {1, 0, 2}, 7},
+      {"bipyramid 3", bipyramid(3, 1.5, 1.5), {1, 0, 1}, 6},
       {"bipyramid 5", bipyramid(5, 1.5, 1.0), {1, 0, 1}, 10},
       {"bipyramid 6", bipyramid(6, 2.0, 2.0), {1, 0, 1}, 12},
       {"bipyramid 8", bipyramid(8, 1.5, 2.0), {1, 0, 1}, 16},
@@ -286,7 +304,7 @@ inline std::vector<Expected> more_unseen_networks() {
       {"frustum 5", tower(5, {{1, 0}, {0.4, 1.5}}), {1, 0, 1}, 7},
       {"frustum 6", tower(6, {{1, 0}, {0.3, 2}}), {1, 0, 1}, 8},
       {"frustum 8", tower(8, {{1, 0}, {0.7, 1.2}}), {1, 0, 1}, 10},
-      {"hourglass 4", tower(4, {{1, 0}, {0.6, 1}, {1, 2}}), {1, 0, 2}, 11},
+      {"hourglass 4", tower(4, {{1, 0}, {0.6, 1}, {1, 2}}), {1, 0, 1}, 10},
       {"barrel 6", tower(6, {{0.7, 0}, {1, 1}, {0.7, 2}}), {1, 0, 1}, 14},
       {"house, gable", house(2.0, 1.5, 1.0, 0.8, 0.0), {1, 0, 1}, 9},
       {"house, hipped", house(2.5, 1.5, 1.0, 0.7, 0.6), {1, 0, 1}, 9},
@@ -315,12 +333,10 @@ inline std::vector<Expected> more_unseen_networks() {
   };
 }
 
-// What does not come out yet as a person sees it, in all turns and draws: outlines with deep
-// notches, whose mouths are closed along no curve. There a sheet folded over the edge of the notch,
-// or a wall across an arm as wide as the faces, still counts. With tubes on a box the rooms of the
-// tubes count one by one, and the hole of the handle is closed. In a frustum so flat that balls
-// from its rings meet nowhere within there is no room to choose.
-inline std::vector<Expected> open_unseen_networks() {
+// Outlines with deep notches, whose mouths no curve closes and whose arms no curve parts; a frustum
+// so flat that balls from its rings meet nowhere within; tubes on a box, with a hole through the
+// handle; a box with a hole through it.
+inline std::vector<Expected> notched_networks() {
   const Outline letter_t = {{0, 2}, {0, 3}, {3, 3}, {3, 2}, {2, 2}, {2, 0}, {1, 0}, {1, 2}};
   const Outline thin_t = {{0, 2.5},   {0, 3},   {3, 3},   {3, 2.5},
                           {1.8, 2.5}, {1.8, 0}, {1.2, 0}, {1.2, 2.5}};
@@ -345,7 +361,10 @@ inline std::vector<Expected> open_unseen_networks() {
       {"prism star 5, sharp", prism(star_outline(5, 0.35), 0.8), {1, 0, 1}, 12},
       {"prism star 6", prism(star_outline(6, 0.6), 1.2), {1, 0, 1}, 14},
       {"frustum 5, flat", tower(5, {{1, 0}, {0.8, 0.3}}), {1, 0, 1}, 7},
-      {"box with a handle", box_with_handle(0.5), {1, 2, 1}, 18, 0},
+      {"box with a handle", box_with_handle(0.5), {1, 2, 1}, 18},
+      {"box with a hole", box_with_hole(1.0), {1, 2, 1}, 10, 2},
+      {"box with a pit", box_with_hole(0.5), {1, 0, 1}, 11, 1},
+      {"box on a box", box_on_a_box(), {1, 0, 1}, 11, 1},
   };
 }
 

@@ -62,7 +62,7 @@ TEST_CASE("Walls separate the chosen voids and the outside, and nothing else") {
     Topology3 topology(heap.context);
     TopologyOptions options;
     options.voids = voids;
-    unit::must(reconstruct_topology(heap.context, flow.complex, flow.curves, flow.flatness.span(),
+    unit::must(reconstruct_topology(heap.context, flow.complex, flow.curves, flow.cells,
                                     flow.persistence, options, &topology));
     CHECK(topology.chosen.size() == size_t(voids));
     unit::Array<uint32_t> label(heap.context);
