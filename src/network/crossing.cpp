@@ -76,7 +76,7 @@ static Status add_branch(const View& view, const Vec3& way, bool of_a, Array<Bra
                          Tip* tip) {
   constexpr double k_least_share = 0.5;
   ++tip->branches;
-  const bool away = dot(unit(way), of_a ? view.gap : -view.gap) < -k_least_sine;
+  const bool away = dot(unit(way), of_a ? view.gap : -view.gap) < -k_crossing_sine;
   const Vec3 seen = reject(way, view.gap);
   if (!(length(seen) > k_least_share * length(way))) {
     tip->points = tip->points && away;
