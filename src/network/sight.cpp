@@ -7,8 +7,10 @@
 namespace wireskin::network {
 
 // So many vertices of a loop at most look.
-static constexpr uint32_t k_most_places = 64;
+static constexpr uint32_t k_most_places = 32;
 static constexpr uint32_t k_places_in_leaf = 8;
+// So many times its own length a loop looks ahead: 25 radii of a tube.
+static constexpr double k_reach = 4.0;
 // A place sees its own loop where both look at each other with more than this cosine: what is
 // beside it on a smooth loop is seen with a cosine near zero.
 static constexpr double k_least_own_cosine = 0.2;
@@ -22,6 +24,14 @@ static double total_turning(const Border& border, uint32_t loop) {
     const Vec3 before = reject(border.position[j] - border.position[i], n);
     const Vec3 behind = reject(border.position[k] - border.position[j], n);
     sum += arc_tangent(dot(cross(before, behind), n), dot(before, behind));
+  }
+  return sum;
+}
+
+static double length_of_loop(const Border& border, uint32_t loop) {
+  double sum = 0.0;
+  for (uint32_t i = border.start[loop]; i < border.start[loop + 1]; ++i) {
+    sum += length(border.position[next_on_border(border, loop, i)] - border.position[i]);
   }
   return sum;
 }
@@ -44,8 +54,12 @@ Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool 
   const uint32_t count = n < k_most_places ? n : k_most_places;
   const uint32_t own = static_cast<uint32_t>(map->loop.size());
   const double inside = curvature_inside(border, loop);
-  const SightLoop added = {patch, reversed, static_cast<uint32_t>(map->place.size()), count,
-                           reversed ? 4.0 * k_pi - inside : inside};
+  const SightLoop added = {patch,
+                           reversed,
+                           static_cast<uint32_t>(map->place.size()),
+                           count,
+                           reversed ? 4.0 * k_pi - inside : inside,
+                           k_reach * length_of_loop(border, loop)};
   for (uint32_t k = 0; k < count; ++k) {
     const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
     const Vec3& next = border.position[start + (i + 1 < n ? i + 1 : 0)];
@@ -168,6 +182,14 @@ static double distance_to_box(const SightBox& box, const Vec3& p) {
                      beyond(box.low.z, p.z, box.high.z)});
 }
 
+// Whether all of a box lies behind a place.
+static bool is_behind(const SightBox& box, const SightPlace& p) {
+  const Vec3& c = p.conormal;
+  const Vec3 farthest = {c.x > 0.0 ? box.high.x : box.low.x, c.y > 0.0 ? box.high.y : box.low.y,
+                         c.z > 0.0 ? box.high.z : box.low.z};
+  return !(dot(c, farthest - p.position) > 0.0);
+}
+
 namespace {
 
 struct Seen {
@@ -177,18 +199,19 @@ struct Seen {
 
 }  // namespace
 
-// The place with the least way, as `measure(q, limit)` gives it: no less than the distance, and
-// DBL_MAX where q is not seen or the way is no shorter than the limit.
+// The place with the least way within the reach of a place's loop, as `measure(q, limit)` gives it:
+// no less than the distance, and DBL_MAX where q is not seen or the way is no shorter than the
+// limit.
 template <typename Measure>
-static Seen search_sight(const SightMap& map, const Vec3& from, const Measure& measure) {
+static Seen search_sight(const SightMap& map, const SightPlace& from, const Measure& measure) {
   uint32_t waiting[64];  // halves of halves: 32 levels at most
   uint32_t count = 0;
-  Seen seen;
+  Seen seen = {k_none, map.loop[from.loop].reach};
   waiting[count++] = 0;
   while (count > 0) {
     const uint32_t b = waiting[--count];
     const SightBox& box = map.box[b];
-    if (!(distance_to_box(box, from) < seen.way)) continue;
+    if (is_behind(box, from) || !(distance_to_box(box, from.position) < seen.way)) continue;
     if (box.second == k_none) {
       for (uint32_t q : map.order.span().part(box.first, box.count)) {
         const double way = measure(q, seen.way);
@@ -196,19 +219,19 @@ static Seen search_sight(const SightMap& map, const Vec3& from, const Measure& m
       }
       continue;
     }
-    const bool left_first =
-        distance_to_box(map.box[b + 1], from) <= distance_to_box(map.box[box.second], from);
+    const bool left_first = distance_to_box(map.box[b + 1], from.position) <=
+                            distance_to_box(map.box[box.second], from.position);
     waiting[count++] = left_first ? box.second : b + 1;
     waiting[count++] = left_first ? b + 1 : box.second;
   }
   return seen;
 }
 
-// The way from place q to what it sees nearest.
+// The way from place q to what it sees nearest, its reach where that is nothing.
 static double nearest_way(SightMap* map, uint32_t q) {
   if (map->nearest[q] >= 0.0) return map->nearest[q];
   const SightPlace& from = map->place[q];
-  const Seen seen = search_sight(*map, from.position, [&](uint32_t r, double limit) {
+  const Seen seen = search_sight(*map, from, [&](uint32_t r, double limit) {
     const double way = way_between(from, map->place[r]);
     const bool nearer = way > 0.0 && way < limit;
     return nearer && may_see(*map, from.loop, map->place[r].loop) ? way : DBL_MAX;
@@ -218,12 +241,12 @@ static double nearest_way(SightMap* map, uint32_t q) {
 
 Sight look(SightMap* map, uint32_t i, Span<const uint8_t> hidden) {
   const SightPlace& from = map->place[i];
-  const Seen seen = search_sight(*map, from.position, [&](uint32_t q, double limit) {
+  const Seen seen = search_sight(*map, from, [&](uint32_t q, double limit) {
     const uint32_t loop = map->place[q].loop;
     if (loop != from.loop && hidden[loop]) return DBL_MAX;
     const double way = way_between(from, map->place[q]);
     if (!(way > 0.0 && way < limit) || !may_see(*map, from.loop, loop)) return DBL_MAX;
-    return way * (way / nearest_way(map, q));
+    return way * larger(way / nearest_way(map, q), 1.0);
   });
   if (seen.place == k_none) return {};
   const SightPlace& to = map->place[seen.place];

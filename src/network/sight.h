@@ -1,13 +1,14 @@
 // What the border of a patch looks at: from every place of a loop along its conormal, which points
 // into the patch along the surface, to the nearest place whose conormal looks back.
 //
-// In: borders of patches. Out: places thinned to at most 64 a loop, and of each place what it sees.
+// In: borders of patches. Out: places thinned to at most 32 a loop, and of each place what it sees.
 // The way between two places that turn by angles a and b from the chord, and whose normals differ
 // by t when carried along, counts as chord 8 / ((1 + cos a) (1 + cos b) (1 + cos t)); where the
 // place met would rather look elsewhere it counts as more in that proportion. Of its own loop a
-// place sees what is not beside it. Places stand in a tree of boxes: O(n log^2 n) to build, and
-// about O(log n) a look. The curvature of the patch that a loop would bound alone follows from how
-// it turns (C. F. Gauss, 1827; O. Bonnet, 1848).
+// place sees what is not beside it. Nothing is seen beyond four times the loop's length. Places
+// stand in a tree of boxes: O(n log^2 n) to build, and about O(log n) a look. The curvature of the
+// patch that a loop would bound alone follows from how it turns (C. F. Gauss, 1827; O. Bonnet,
+// 1848).
 #pragma once
 
 #include "network/border.h"
@@ -19,6 +20,7 @@ struct SightLoop {
   bool reversed;          // the other side of a ring
   uint32_t first, count;  // of the places
   double curvature;       // of a disc inside the loop
+  double reach;           // how far it looks at most
 };
 
 struct SightPlace {

@@ -30,7 +30,7 @@ struct Bound {
 
 const Bound k_bounds[] = {
     {"common-meshes/spot.obj", 0, 0, 0},   {"libigl-meshes/bumpy-cube.obj", 0, 0, 0},
-    {"common-meshes/beetle.obj", 2, 1, 1}, {"libigl-meshes/fertility.off", 0, 4, 5},
+    {"common-meshes/beetle.obj", 2, 1, 1}, {"libigl-meshes/fertility.off", 1, 4, 4},
     {"libigl-meshes/3holes.off", 0, 1, 4}, {"pmp-meshes/hemisphere.off", 0, 0, 0},
 };
 
