@@ -95,6 +95,10 @@ static bool fold_over(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q
   return sign_of(orient2d(a, b, drop_axis(p, axis))) == sign_of(orient2d(a, b, drop_axis(q, axis)));
 }
 
+static bool has_corner_twice(const uint32_t* t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_t* b) {
   uint32_t shared = 0, at_a = 0, at_b = 0, sum_a = 0, sum_b = 0;
   for (uint32_t i = 0; i < 3; ++i) {
@@ -106,7 +110,8 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
     }
   }
   const Vec3* const p = position.data();
-  if (shared == 3) return true;
+  // What collapsed to a line is no triangle of a sound mesh: it crosses what it hangs on.
+  if (shared >= 3 || (shared == 2 && (has_corner_twice(a) || has_corner_twice(b)))) return true;
   if (shared == 2) {
     // The corners that are not shared are what is left of 0 + 1 + 2.
     const uint32_t i = 3 - sum_a, j = 3 - sum_b;
