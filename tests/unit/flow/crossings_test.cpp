@@ -37,6 +37,8 @@ TEST_CASE("Triangles that share a vertex or an edge") {
   CHECK(cross(p, {0, 1, 2}, {0, 1, 8}));   // folded over
   CHECK(cross(p, {0, 1, 2}, {2, 0, 1}));   // the same
   CHECK(cross(p, {0, 1, 2}, {0, 0, 5}));   // one that is none
+  CHECK(cross(p, {0, 1, 2}, {2, 2, 4}));   // collapsed
+  CHECK(cross(p, {0, 1, 2}, {0, 5, 0}));
 }
 
 TEST_CASE("Random pairs against a search along their edges") {
