@@ -5,10 +5,10 @@
 namespace wireskin::network {
 
 // Sine of the least angle between two branches that go different ways.
-static constexpr double k_least_sine = 0.17;
+static constexpr double k_sine_of_branch = 0.17;
 
 bool run_along(const Vec3& a, const Vec3& b) {
-  return length(cross(a, b)) < k_least_sine;
+  return length(cross(a, b)) < k_sine_of_branch;
 }
 
 // The point that far along the curve from a place, or the end before it.
@@ -76,7 +76,7 @@ static Status add_branch(const View& view, const Vec3& way, bool of_a, Array<Bra
                          Tip* tip) {
   constexpr double k_least_share = 0.5;
   ++tip->branches;
-  const bool away = dot(unit(way), of_a ? view.gap : -view.gap) < -k_least_sine;
+  const bool away = dot(unit(way), of_a ? view.gap : -view.gap) < -k_sine_of_branch;
   const Vec3 seen = reject(way, view.gap);
   if (!(length(seen) > k_least_share * length(way))) {
     tip->points = tip->points && away;
