@@ -47,8 +47,8 @@
  *   lengths by exactly that.
  * - Sizes: indices have 32 bits, so the matrix factors have fewer than 2^32 - 1 entries, and a mesh
  *   of the library's fewer than 2^26 vertices, 2^20 edges between two nodes, and 2^16 on the border
- *   of a patch that no plane shows; beyond that the status is WSK_ERROR_TOO_LARGE. Where the spacing
- *   asks for more, that is known before anything is meshed.
+ *   of a patch that no plane shows; beyond that the status is WSK_ERROR_TOO_LARGE, and where the
+ *   spacing asks for more, that is known before anything is meshed.
  *
  * ABI: structs that may grow begin with their size, which the _init function writes; a library
  * newer than the caller never touches bytes beyond it. Numbers of constants never change.
@@ -630,15 +630,15 @@ typedef struct wsk_network_view {
  * corner; closed curves are recognised. Then curves that come nearer to each other than
  * options.snap are joined, nearest first: ends to ends, ends to the inside of curves, and the
  * insides of curves where they cross, seen along the gap between them, or touch: to a twentieth of
- * the tolerance, or to a quarter where one has a corner that points to the other. Curves that pass
- * side by side stay apart, however near: a hole beside the border of its patch, two parallel ones.
- * Insides of one component are joined at a quarter of the tolerance only, or at a hundredth where
- * the network is one component without dangling ends already. Places that the network connects
- * within four tolerances are left alone (loose ends: within four times their distance). Where most
- * gaps are next to nothing, as between curves drawn on a surface, ends that meet a curve come first,
- * and every crossing becomes a joint. Existing nodes stay where they are and the curves that come to
- * them bend smoothly; an end comes to the inside of a curve; ends meet in the middle, and so do
- * insides. A joint between samples becomes a sample.
+ * the tolerance, or to a quarter where one that is no boundary has a corner that points to the
+ * other. Curves side by side stay apart, however near: a hole beside the border of its patch, two
+ * parallels. Insides of one component are joined at a quarter of the tolerance only, or at a
+ * hundredth where the network is one component without dangling ends already. Places that the
+ * network connects within four tolerances are left alone (loose ends: within four times their
+ * distance). Where most gaps are next to nothing, as between curves drawn on a surface, ends that
+ * meet a curve come first, and every crossing becomes a joint. Existing nodes stay where they are
+ * and the curves that come to them bend smoothly; an end comes to the inside of a curve; ends meet
+ * in the middle, and so do insides. A joint between samples becomes a sample.
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other

@@ -60,7 +60,8 @@ Status explain_rounding(const Status& status, Span<const Vec3> positions, double
       status.code == Code::zero_length_curve || status.code == Code::duplicate_samples ||
       status.code == Code::node_mismatch || status.code == Code::tangent_normal ||
       status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
-      status.code == Code::bad_mesh || status.code == Code::not_positive_definite;
+      status.code == Code::bad_mesh || status.code == Code::not_positive_definite ||
+      status.code == Code::bad_argument;  // of flow/: the points span no volume
   if (!geometric || spacing == 0.0) return status;
   double farthest = 0.0;
   for (const Vec3& p : positions) {

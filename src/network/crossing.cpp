@@ -5,10 +5,10 @@
 namespace wireskin::network {
 
 // Sine of the least angle between two branches that go different ways.
-static constexpr double k_crossing_sine = 0.17;
+static constexpr double k_sine_of_branch = 0.17;
 
 bool run_along(const Vec3& a, const Vec3& b) {
-  return length(cross(a, b)) < k_crossing_sine;
+  return length(cross(a, b)) < k_sine_of_branch;
 }
 
 // The point that far along the curve from a place, or the end before it.
@@ -69,6 +69,7 @@ static WirePlace settle(const Beads& beads, const WirePlace& place, double reach
 struct Tip {
   uint32_t branches = 0;  // one: the curve ends there
   uint32_t seen = 0;      // of these, not along the gap
+  Vec3 sum;               // of their unit directions, short where a curve goes straight on
   bool points = true;     // all branches lead away from the other curve
 };
 
@@ -76,7 +77,8 @@ static Status add_branch(const View& view, const Vec3& way, bool of_a, Array<Bra
                          Tip* tip) {
   constexpr double k_least_share = 0.5;
   ++tip->branches;
-  const bool away = dot(unit(way), of_a ? view.gap : -view.gap) < -k_crossing_sine;
+  tip->sum += unit(way);
+  const bool away = dot(unit(way), of_a ? view.gap : -view.gap) < -k_sine_of_branch;
   const Vec3 seen = reject(way, view.gap);
   if (!(length(seen) > k_least_share * length(way))) {
     tip->points = tip->points && away;
@@ -99,6 +101,7 @@ static Status list_branches(const Beads& beads, const View& view, const WirePlac
     const WirePlace here = place.part == 0.0 ? beads.place_of(b) : place;
     const uint32_t c = beads.curve[here.edge];
     const Vec3 from = beads.point_at(here);
+    tip->points = tip->points && !wires.boundary[c];
     for (int side = 0; side < 2; ++side) {
       const bool forward = side == 1;
       const uint32_t beyond = forward ? wires.next(c, here.edge) : wires.previous(c, here.edge);
@@ -155,7 +158,10 @@ Status judge_contact(const Beads& beads, const Approach& approach, Array<Branch>
     const bool leaves_line = !branch.along && other.seen == other.branches;
     tip.points = tip.points && (branch.away || leaves_line);
   }
-  *contact = at_a.points || at_b.points ? Contact::points : Contact::beside;
+  const auto is_corner = [](const Tip& tip) {
+    return tip.points && length(tip.sum) > k_sine_of_branch * tip.branches;
+  };
+  *contact = is_corner(at_a) || is_corner(at_b) ? Contact::points : Contact::beside;
   return {};
 }
 

@@ -7,7 +7,8 @@
 // since that is where the gap stops to matter, and at a node those of all curves together. Where a
 // curve ends at nothing there is nothing to cross: an end may meet whatever is near. Between these
 // stands the corner, or node, that points to the other curve: all its branches lead away from that,
-// in space or seen along the gap. O(curves at the place), at most 64 samples each.
+// in space or seen along the gap; but corners of boundary curves do not, as holes have them.
+// O(curves at the place), at most 64 samples each.
 #pragma once
 
 #include "network/beads.h"

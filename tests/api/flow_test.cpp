@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "support/faulty_allocator.h"
@@ -738,4 +739,52 @@ TEST_CASE("How many voids are caged is said") {
   const Result many = surface_of(cube(), plain_options(), wish);
   CHECK(many.view.caged_count < 1000);
   CHECK(many.view.betti[2] <= many.view.caged_count);
+}
+
+TEST_CASE("flow: what fails because the curves lie too far from the origin says so") {
+  int failed = 0;
+  for (const double offset : {1e3, 1e15, 1e16, 1e18}) {
+    CAPTURE(offset);
+    Curves net = sphere();
+    for (std::vector<double>& p : net.positions) {
+      for (size_t i = 0; i < p.size(); i += 3) p[i] += offset;
+    }
+    net.normals.clear();
+    wsk_report report;
+    wsk_report_init(&report, sizeof report);
+    wsk_flow* flow = nullptr;
+    const wsk_status status =
+        wsk_flow_build(net.list().data(), net.curves.size(), nullptr, nullptr, &flow, &report);
+    CHECK(report.status == status);
+    wsk_flow_free(flow);
+    if (status == WSK_OK) continue;
+    ++failed;
+    CHECK(std::string(report.sentence).find("move it to the origin") != std::string::npos);
+  }
+  CHECK(failed >= 1);
+}
+
+TEST_CASE("flow: a spacing that asks for too many vertices is refused at once, with the patch") {
+  Curves net = sphere();
+  net.normals.clear();
+  wsk_options options;
+  wsk_options_init(&options, sizeof options);
+  wsk_report report;
+  wsk_report_init(&report, sizeof report);
+  wsk_flow* flow = nullptr;
+  REQUIRE(wsk_flow_build(net.list().data(), net.curves.size(), &options, nullptr, &flow, &report) ==
+          WSK_OK);
+  wsk_surface* surface = nullptr;
+  options.spacing = 1e-5;
+  CHECK(wsk_flow_surface(flow, &options, nullptr, &surface, &report) == WSK_ERROR_TOO_LARGE);
+  CHECK(report.patch < 8);
+  CHECK(report.peak_bytes < 50000000);
+  CHECK(surface == nullptr);
+  // The samples that such a spacing would need are refused just so.
+  wsk_flow* fine = nullptr;
+  options.spacing = 1e-7;
+  CHECK(wsk_flow_build(net.list().data(), net.curves.size(), &options, nullptr, &fine, &report) ==
+        WSK_ERROR_TOO_LARGE);
+  CHECK(report.peak_bytes < 50000000);
+  wsk_flow_free(flow);
 }

@@ -48,6 +48,8 @@ TEST_CASE("counts and arrays agree, and the mesh is an oriented manifold") {
     CHECK(report.min_angle_deg > 5.0);
     CHECK(report.min_angle_deg <= 60.0);
     CHECK(report.residual < 1e-8);
+    CHECK(report.inverted_triangles == 0);
+    CHECK(report.first_inverted_patch == WSK_NONE);
 
     uint32_t free_vertices = 0;
     for (size_t v = 0; v < result.vertex_curve.size(); ++v) {
@@ -193,4 +195,41 @@ TEST_CASE("the surface keeps the allocator that it came from, and all memory goe
   std::memset(&options, 0, sizeof options);  // the options are the caller's again
   wsk_surface_free(surface);
   CHECK(allocator.clean());
+}
+
+TEST_CASE("triangles that lie upside down are counted") {
+  // A flat grid of 6 x 6 squares; one vertex inside, held, stands beyond its neighbours or not.
+  constexpr uint32_t n = 7;
+  for (const bool beyond : {false, true}) {
+    std::vector<double> positions;
+    std::vector<uint8_t> held;
+    std::vector<uint32_t> triangles;
+    for (uint32_t v = 0; v < n * n; ++v) {
+      positions.insert(positions.end(), {1.0 * (v % n), 1.0 * (v / n), 0.0});
+      held.push_back(v % n > 4 || v % n < 3 || v / n > 4 || v / n < 2);
+    }
+    const uint32_t moved = 3 * n + 3;
+    held[moved] = 1;
+    if (beyond) positions[3 * moved] += 1.7;
+    for (uint32_t v = 0; v < n * n; ++v) {
+      if (v % n + 1 == n || v / n + 1 == n) continue;
+      triangles.insert(triangles.end(), {v, v + 1, v + n + 1, v, v + n + 1, v + n});
+    }
+    wsk_mesh mesh = {};
+    mesh.vertex_count = n * n;
+    mesh.positions = positions.data();
+    mesh.constrained = held.data();
+    mesh.triangle_count = triangles.size() / 3;
+    mesh.triangles = triangles.data();
+    wsk_options options;
+    wsk_options_init(&options, sizeof options);
+    options.method = WSK_METHOD_BIHARMONIC;
+    wsk_report report;
+    wsk_report_init(&report, sizeof report);
+    wsk_surface* surface = nullptr;
+    REQUIRE(wsk_smooth_mesh(&mesh, &options, &surface, &report) == WSK_OK);
+    wsk_surface_free(surface);
+    CHECK((report.inverted_triangles > 0) == beyond);
+    CHECK(report.first_inverted_patch == (beyond ? 0 : WSK_NONE));
+  }
 }

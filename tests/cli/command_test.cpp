@@ -351,10 +351,12 @@ TEST_CASE("outputs are complete or absent, all of them") {
 TEST_CASE("hints: spacing, huge offsets, normals, names") {
   const ScratchFolder folder("command");
   write_file(folder / "sphere.net", sphere_net(4));
-  CHECK(run(folder, "sphere.net -o a.obj --spacing 1e-20").err ==
-        "sphere.net: the spacing is too small for the network; --spacing is 1e-20, the diagonal of "
-        "the network 3.46: that makes some 2.77e+41 triangles (the default, a hundredth of the "
-        "diagonal, makes some 20000)\n");
+  CHECK(
+      run(folder, "sphere.net -o a.obj --spacing 1e-20").err ==
+      "sphere.net: curve 0: the spacing is too small for the network: its surface would have more "
+      "than 2^26 vertices (line 46); --spacing is 1e-20, the diagonal of the network 3.46: that "
+      "makes some 2.77e+41 triangles (the default, a hundredth of the diagonal, makes some "
+      "20000)\n");
   write_file(folder / "far.net",
              "3\n1e14 0 0 0 0 1\n100000000000001 0 0 0 0 1\n1e14 1 0 0 0 1\n1\n0\n0 1 2\n");
   const Run far = run(folder, "far.net -o a.obj");
@@ -367,6 +369,11 @@ TEST_CASE("hints: spacing, huge offsets, normals, names") {
   CHECK(run(folder, "bare.obj -o b.obj --topology normals").err ==
         "bare.obj: curve 0 (\"a rim\"): the curve has no normals (line 5); the file gives no "
         "normals at all: --topology flow needs none\n");
+  // Names are shown in whatever language they are.
+  write_file(folder / "named.obj",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\ng K\xC3\xA4nte \xE6\x9B\xB2\nl 1 2 3 1\n");
+  CHECK(run(folder, "named.obj -o b.obj --topology normals --report b.json")
+            .err.find("curve 0 (\"K\xC3\xA4nte \xE6\x9B\xB2\"): ") != std::string::npos);
   // A normal that is missing between others is filled in; what is wrong here is something else.
   write_file(folder / "some.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,,,\n1,1,0,0,0,1\n");
   const Run loose = run(folder, "some.csv -o a.obj");
