@@ -358,7 +358,7 @@ static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i,
   constexpr double k_near_end = 0.2;
   const double foot = near.share;
   const double from = samples.along[i], to = samples.along[i + 1], half = 0.5 * (to - from);
-  if (near.gap <= k_same_curve * arcs.diagonal) return from + foot * (to - from);
+  if (near.gap <= k_least_segment * arcs.diagonal) return from + foot * (to - from);
   const uint32_t p = samples.vertex[samples.at[i]], q = samples.vertex[samples.at[i + 1]];
   const bool at_p = p != k_none && arcs.is_node[p] != 0;
   const bool at_q = q != k_none && arcs.is_node[q] != 0;
@@ -373,7 +373,7 @@ static bool is_crowded(const Encroacher& near, double length, double greatest_st
                        double diagonal) {
   constexpr double k_coinciding = 0.05;  // of the length
   if (length < 2.0 * k_least_segment * diagonal) return true;
-  if (near.gap <= k_same_curve * diagonal && near.from_end < k_least_segment * diagonal)
+  if (near.gap <= k_least_segment * diagonal && near.from_end < k_least_segment * diagonal)
     return true;
   return length < 2.0 * k_least_step * greatest_step && near.gap < k_coinciding * length;
 }
