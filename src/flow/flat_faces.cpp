@@ -9,6 +9,8 @@ namespace wireskin::flow {
 static constexpr double k_least_corner = 0.94;  // cosine of what a polygon turns at a corner
 static constexpr double k_beside = 1e-5;        // of the diagonal, from an edge
 static constexpr uint8_t k_most_visits = 4;
+// Of lines and samples looked at; who draws faces as dense as that gets none.
+static constexpr size_t k_most_work = size_t{1} << 26;
 
 namespace {
 
@@ -16,11 +18,22 @@ struct Plane {
   Vec3 at, normal;
 };
 
+enum class Crossed : uint8_t { unknown, no, yes };
+
 struct FaceFlood {
+  // For what runs across a triangle: ends of lines, those of them in the plane of a seed; samples
+  // of arcs that bend; what is known of each triangle, and how much was looked at.
+  Array<Vec3> line_end;
+  Array<uint32_t> plane_line;
+  uint32_t plane_line_of = k_none;
   PointGrid grid;
+  Array<uint32_t> curved;
+  Array<Crossed> crossed;
+  size_t work = 0;
   Array<uint32_t> mark;               // of each triangle: the seed whose face it was last in
   Array<uint8_t> visits;              // of each triangle
   Array<uint32_t> member;             // the face
+  Array<uint32_t> left;               // to be looked at again
   Array<uint8_t> straight;            // of each edge: on a straight arc
   Array<uint32_t> arc_of;             // of each edge on a curve
   Array<uint32_t> rim_of;             // of each arc: the seed of the face that has it last
@@ -28,10 +41,15 @@ struct FaceFlood {
   Array<uint32_t> seen, border_edge;  // of each vertex: its edges on the border, and one of them
 
   explicit FaceFlood(Context& context)
-      : grid(context),
+      : line_end(context),
+        plane_line(context),
+        grid(context),
+        curved(context),
+        crossed(context),
         mark(context),
         visits(context),
         member(context),
+        left(context),
         straight(context),
         arc_of(context),
         rim_of(context),
@@ -153,24 +171,61 @@ static bool passes_through(const Complex& complex, const Plane& plane, uint32_t 
   return (to - from) * length(q - p) > margin;
 }
 
-// Whether a curve runs across the triangle: outermost layers, of huge empty balls outside of the
-// hull, may reach across. An end of the segment of curve lies in a ball round the triangle, as no
-// sample lies in that of which the segment is a diameter.
-static bool is_crossed(const Complex& complex, const FaceFlood& flood, const Plane& plane,
-                       uint32_t t) {
+static bool near_plane(const Complex& complex, const Plane& plane, const Vec3& p) {
+  return std::fabs(dot(p - plane.at, plane.normal)) <= k_flat * complex.diagonal;
+}
+
+static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_t seed, uint32_t t,
+                             FaceFlood* flood) {
+  const Array<Vec3>& end = flood->line_end;
+  if (flood->plane_line_of != seed) {
+    flood->plane_line_of = seed;
+    flood->plane_line.clear();
+    flood->work += end.size() / 2;
+    for (uint32_t i = 0; i < end.size(); i += 2) {
+      const bool within =
+          near_plane(complex, plane, end[i]) && near_plane(complex, plane, end[i + 1]);
+      if (within) flood->plane_line.push_reserved(i);
+    }
+  }
+  flood->work += flood->plane_line.size();
+  for (const uint32_t i : flood->plane_line) {
+    if (passes_through(complex, plane, t, end[i], end[i + 1])) return true;
+  }
+  return false;
+}
+
+// An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that
+// of which the segment is a diameter.
+static bool any_bend_crosses(const Complex& complex, const StraightLines& lines, const Plane& plane,
+                             uint32_t t, FaceFlood* flood) {
+  if (flood->curved.empty()) return false;
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
   const double size = larger(length(b - a), larger(length(c - b), length(a - c)));
-  return flood.grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t i) {
-    const Vec3& p = complex.point[i];
-    if (std::fabs(dot(p - plane.at, plane.normal)) > k_flat * complex.diagonal) return false;
-    for (uint32_t k = flood.next_start[i]; k < flood.next_start[i + 1]; ++k) {
-      const Vec3& q = complex.point[flood.next[k]];
-      if (std::fabs(dot(q - plane.at, plane.normal)) > k_flat * complex.diagonal) continue;
-      if (passes_through(complex, plane, t, p, q)) return true;
+  return flood->grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t at) {
+    const uint32_t i = flood->curved[at];
+    ++flood->work;
+    if (!near_plane(complex, plane, complex.point[i])) return false;
+    for (uint32_t k = flood->next_start[i]; k < flood->next_start[i + 1]; ++k) {
+      const Vec3& q = complex.point[flood->next[k]];
+      if (!near_plane(complex, plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
+      if (passes_through(complex, plane, t, complex.point[i], q)) return true;
     }
     return false;
   });
+}
+
+// Whether a curve runs across the triangle: outermost layers, of huge empty balls outside of the
+// hull, may reach across.
+static bool is_crossed(const Complex& complex, const StraightLines& lines, const Plane& plane,
+                       uint32_t seed, uint32_t t, FaceFlood* flood) {
+  if (flood->crossed[t] == Crossed::unknown) {
+    const bool crossed = any_line_crosses(complex, plane, seed, t, flood) ||
+                         any_bend_crosses(complex, lines, plane, t, flood);
+    flood->crossed[t] = crossed ? Crossed::yes : Crossed::no;
+  }
+  return flood->crossed[t] == Crossed::yes;
 }
 
 // Which side of an edge, within the plane, a triangle lies on.
@@ -211,32 +266,53 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
         if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
         if (is_line(complex, curves, lines, t)) continue;
-        if (!is_crossed(complex, *flood, plane, t)) TRY(add(t));
+        if (!is_crossed(complex, lines, plane, seed, t, flood)) TRY(add(t));
       }
     }
   }
   return {};
 }
 
-// Leaves only triangles that go on, at each of their edges off the curves, on the other side: all
-// of a face where curves close it, nothing where not.
-static void close_face(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                       const Plane& plane, uint32_t seed, FaceFlood* flood) {
-  for (bool any = true; any;) {
-    size_t kept = 0;
-    for (const uint32_t t : flood->member) {
-      bool closed = true;
-      for (uint32_t k = 0; closed && k < 3; ++k) {
-        const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-        closed =
-            on_rim(complex, curves, lines, e) || sides_of(complex, *flood, plane, seed, e) == 3;
-      }
-      if (closed) flood->member[kept++] = t;
-      if (!closed) flood->mark[t] = k_none;
-    }
-    any = kept < flood->member.size();
-    flood->member.shrink(kept);
+// Whether the triangle goes on, at each of its edges off the curves, on the other side.
+static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
+                              const StraightLines& lines, const FaceFlood& flood,
+                              const Plane& plane, uint32_t seed, uint32_t t) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+    if (on_rim(complex, curves, lines, e)) continue;
+    if (sides_of(complex, flood, plane, seed, e) != 3) return false;
   }
+  return true;
+}
+
+// Leaves only triangles that go on all round: all of a face where curves close it, nothing where
+// not.
+static Status close_face(const Complex& complex, const CurveEdges& curves,
+                         const StraightLines& lines, const Plane& plane, uint32_t seed,
+                         FaceFlood* flood) {
+  Array<uint32_t>& left = flood->left;
+  TRY(left.copy(flood->member.span()));
+  while (!left.empty()) {
+    const uint32_t t = left.back();
+    left.pop();
+    ++flood->work;
+    if (flood->mark[t] != seed) continue;
+    if (goes_on_all_round(complex, curves, lines, *flood, plane, seed, t)) continue;
+    flood->mark[t] = k_none;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (on_rim(complex, curves, lines, e)) continue;
+      for (const uint32_t next : complex.triangles_of(e)) {
+        if (flood->mark[next] == seed) TRY(left.push(next));
+      }
+    }
+  }
+  size_t kept = 0;
+  for (const uint32_t t : flood->member) {
+    if (flood->mark[t] == seed) flood->member[kept++] = t;
+  }
+  flood->member.shrink(kept);
+  return {};
 }
 
 // Notes an edge of the border at both its ends; false if it makes a bend with the one before.
@@ -387,12 +463,52 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
   return {};
 }
 
+static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
+                         FaceFlood* flood) {
+  for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
+    const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
+    if (first == last) continue;
+    const uint32_t arc = lines.arc[first];
+    const Vec3 from = complex.point[complex.same_as[samples.at[samples.start[arc]]]];
+    const Vec3 along =
+        complex.point[complex.same_as[samples.at[samples.start[arc + 1] - 1]]] - from;
+    Vec3 low = from, high = from;
+    for (uint32_t i = first; i < last; ++i) {
+      const uint32_t a = lines.arc[i];
+      for (uint32_t end = 0; end < 2; ++end) {
+        const uint32_t at = end == 0 ? samples.start[a] : samples.start[a + 1] - 1;
+        const Vec3& p = complex.point[complex.same_as[samples.at[at]]];
+        if (dot(p - low, along) < 0.0) low = p;
+        if (dot(p - high, along) > 0.0) high = p;
+      }
+    }
+    TRY(flood->line_end.push(low));
+    TRY(flood->line_end.push(high));
+  }
+  return flood->plane_line.reserve(flood->line_end.size());
+}
+
+static Status list_curved(const Complex& complex, const Samples& samples,
+                          const StraightLines& lines, FaceFlood* flood) {
+  Array<Vec3> point(flood->curved.context());
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    if (lines.is_straight(a)) continue;
+    for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
+      TRY(flood->curved.push(complex.same_as[samples.at[i]]));
+      TRY(point.push(complex.point[flood->curved.back()]));
+    }
+  }
+  return flood->grid.build(point.span());
+}
+
 static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
                           const StraightLines& lines, FaceFlood* flood, FlatFaces* faces) {
   TRY(faces->part.assign(complex.triangle_count(), FlatPart::none));
   TRY(faces->start.push(0));
   TRY(faces->rim_start.push(0));
-  TRY(flood->grid.build(complex.point.span()));
+  TRY(list_lines(complex, samples, lines, flood));
+  TRY(list_curved(complex, samples, lines, flood));
+  TRY(flood->crossed.assign(complex.triangle_count(), Crossed::unknown));
   TRY(link_segments(complex, curves, flood));
   TRY(flood->mark.assign(complex.triangle_count(), k_none));
   TRY(flood->visits.assign(complex.triangle_count(), 0));
@@ -401,26 +517,38 @@ static Status start_faces(const Complex& complex, const Samples& samples, const 
   return mark_arcs(complex, samples, curves, lines, flood);
 }
 
+static Status forget_faces(FlatFaces* faces) {
+  faces->start.clear();
+  faces->triangle.clear();
+  faces->normal.clear();
+  faces->polygon.clear();
+  faces->rim_start.clear();
+  faces->rim.clear();
+  for (FlatPart& part : faces->part) part = FlatPart::none;
+  return {};
+}
+
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
-  constexpr size_t k_members_per_checkpoint = 1u << 15;
+  constexpr size_t k_work_per_checkpoint = 1u << 17;
   FaceFlood flood(context);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
   TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
-  size_t looked_at = 0;
+  size_t next_checkpoint = k_work_per_checkpoint;
   for (const uint32_t seed : seeds) {
     if (flood.visits[seed] != 0) continue;
     const Plane plane = plane_of(complex, seed);
-    if (is_crossed(complex, flood, plane, seed)) continue;
+    if (is_crossed(complex, lines, plane, seed, seed, &flood)) continue;
     TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
-    looked_at += flood.member.size();
-    if (looked_at > k_members_per_checkpoint) {
+    flood.work += flood.member.size();
+    if (flood.work > k_most_work) return forget_faces(faces);
+    if (flood.work > next_checkpoint) {
       TRY(context.checkpoint());
-      looked_at = 0;
+      next_checkpoint = flood.work + k_work_per_checkpoint;
     }
-    close_face(complex, curves, lines, plane, seed, &flood);
+    TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
     TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
     TRY(add_face(complex, samples, curves, lines, plane, seed, &flood, faces));

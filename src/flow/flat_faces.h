@@ -5,10 +5,10 @@
 // corners rather than bends. Found by flooding coplanar triangles of the complex from those at the
 // curves, the largest first, not across curves; what has a border elsewhere is dropped. Where four
 // samples lie on a circle the complex has flat tetrahedra, and a face all their triangles: several
-// layers. Any cycle of curves counts, whether it is a face of the solid or a cross section of it
-// (flat_cells.h tells). O(triangles log triangles), times the samples near one. The rule is our
-// own; faces as cycles of a wireframe: G. Markowsky, M. A. Wesley, "Fleshing Out Wire Frames",
-// 1980.
+// layers. Any cycle of curves counts, a face of the solid or a section of it (flat_cells.h tells).
+// O(triangles log triangles), and for each in a face its lines and bends; past a bound on these
+// there are no faces. The rule is our own; faces as cycles of a wireframe: G. Markowsky, M. A.
+// Wesley, "Fleshing Out Wire Frames", 1980.
 #pragma once
 
 #include "flow/straight_lines.h"

@@ -67,8 +67,9 @@ struct StationLine {
 // A sample in the diametral ball of a segment.
 struct Encroacher {
   uint32_t sample = k_none;
-  double share = 0.0;  // of the segment, up to its foot
-  double gap = 0.0;    // its distance from there
+  double share = 0.0;     // of the segment, up to its foot
+  double gap = 0.0;       // its distance from there
+  double from_end = 0.0;  // along the segment
 };
 
 }  // namespace
@@ -143,7 +144,8 @@ static Status choose_steps(Context& context, const Arcs& arcs, double greatest_s
       const uint32_t b = coarse.arc[near];
       if (seen[b] == a) return false;
       seen[b] = a;
-      nearest = smaller(nearest, stray(coarse, a, b, nearest));
+      const double distance = stray(coarse, a, b, nearest);
+      if (distance > k_same_curve * arcs.diagonal) nearest = smaller(nearest, distance);
       return false;
     });
     (*steps)[a] = larger(0.5 * nearest, k_least_step * greatest_step);
@@ -335,7 +337,7 @@ static Encroacher find_encroacher(const PointGrid& grid, const Samples& samples,
     const double share = dot(c - a, b - a) / square, off = std::fabs(share - 0.5);
     if (off > best_off || (off == best_off && r > best.sample)) return false;
     best_off = off;
-    best = {r, share, length(c - a - share * (b - a))};
+    best = {r, share, length(c - a - share * (b - a)), (0.5 - off) * std::sqrt(square)};
     return false;
   });
   return best;
@@ -350,10 +352,13 @@ static double power_of_two_near(double x) {
 // Beside a node at a power of two from it, so that splits of all its arcs agree. Elsewhere at the
 // foot of the sample in the ball, whose ball is then clear of it however near it is: curves that
 // run side by side get samples side by side, not as many as their gap goes into their length.
-// Halfway if the foot is near an end.
-static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i, double foot) {
+// Halfway if the foot is near an end, but where the curves are as good as one.
+static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i,
+                       const Encroacher& near) {
   constexpr double k_near_end = 0.2;
+  const double foot = near.share;
   const double from = samples.along[i], to = samples.along[i + 1], half = 0.5 * (to - from);
+  if (near.gap <= k_least_segment * arcs.diagonal) return from + foot * (to - from);
   const uint32_t p = samples.vertex[samples.at[i]], q = samples.vertex[samples.at[i + 1]];
   const bool at_p = p != k_none && arcs.is_node[p] != 0;
   const bool at_q = q != k_none && arcs.is_node[q] != 0;
@@ -368,6 +373,8 @@ static bool is_crowded(const Encroacher& near, double length, double greatest_st
                        double diagonal) {
   constexpr double k_coinciding = 0.05;  // of the length
   if (length < 2.0 * k_least_segment * diagonal) return true;
+  if (near.gap <= k_least_segment * diagonal && near.from_end < k_least_segment * diagonal)
+    return true;
   return length < 2.0 * k_least_step * greatest_step && near.gap < k_coinciding * length;
 }
 
@@ -396,7 +403,7 @@ static Status split_encroached(Context& context, const Arcs& arcs, double greate
         ++samples->too_short;
         continue;
       }
-      TRY(stations->along.push(split_at(arcs, *samples, i, near.share)));
+      TRY(stations->along.push(split_at(arcs, *samples, i, near)));
       ++samples->splits;
       *any = true;
       if (stations->along.size() > k_most_samples) {
@@ -404,6 +411,22 @@ static Status split_encroached(Context& context, const Arcs& arcs, double greate
       }
     }
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
+  }
+  return {};
+}
+
+// Where curves lie on each other their samples do so bit for bit, so that they are one edge.
+static Status weld_samples(Context& context, double tolerance, Samples* samples) {
+  PointGrid grid(context);
+  TRY(grid.build(samples->position.span()));
+  for (uint32_t i = 0; i < samples->position.size(); ++i) {
+    uint32_t first = i;
+    const Vec3 p = samples->position[i];
+    grid.any_near(p, tolerance, [&](uint32_t k) {
+      if (k < first && length(samples->position[k] - p) <= tolerance) first = k;
+      return false;
+    });
+    samples->position[i] = samples->position[first];
   }
   return {};
 }
@@ -418,7 +441,7 @@ Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Sam
     TRY(split_encroached(context, arcs, greatest_step, samples, &stations, &any));
     if (any) TRY(place_samples(context, arcs, stations, samples));
   }
-  return {};
+  return weld_samples(context, k_coincidence * arcs.diagonal, samples);
 }
 
 }  // namespace wireskin::flow

@@ -9,9 +9,11 @@
 // sample that moved to a given point; every segment is Gabriel, that is, no sample lies in the ball
 // of which it is the diameter, but for those counted as too short: below k_least_segment, or below
 // the floor where another curve all but coincides with it. Curves side by side get samples side by
-// side, so their number does not grow with the narrowness of the gap. Near-linear where arcs are
-// not all near each other. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction
-// from 3D Curves", 2014, section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells).
+// side, so their number does not grow with the narrowness of the gap; those within k_same_curve of
+// each other are one as to steps, and the same samples where they coincide. Near-linear where arcs
+// are not all near each other. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape
+// Reconstruction from 3D Curves", 2014, section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm",
+// 1995 (shells).
 #pragma once
 
 #include "flow/arcs.h"
@@ -19,6 +21,7 @@
 namespace wireskin::flow {
 
 inline constexpr double k_least_segment = 1e-5;   // of the diagonal
+inline constexpr double k_same_curve = 1e-4;      // of the diagonal
 inline constexpr double k_given_distance = 0.05;  // of the greatest step
 
 struct Samples {

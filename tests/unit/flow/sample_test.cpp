@@ -177,3 +177,31 @@ TEST_CASE("Curves that all but coincide are split down to the least step and no 
     CHECK((s.samples.too_short == 0) == (gap >= 1e-4));
   }
 }
+
+TEST_CASE("Curves that lie on each other have the same samples there") {
+  Net net;
+  const Vec3 a = {0.1, 0.2, 0.3}, b = {1.1, 0.4, -0.2};
+  const auto at = [&](double t) { return net.add(a + t * (b - a)); };
+  const uint32_t from = at(0.0), to = at(1.0);
+  net.edge(from, to);
+  net.curve.push_back({from, at(0.3), at(0.65), to});
+  net.edge(at(0.123), at(0.777));
+  const Sampled s(net, 0.02);
+  CHECK(s.samples.position.size() < 500);
+  // Each sample of one curve that lies within another's extent is a sample of that, bit for bit.
+  size_t alone = 0;
+  for (uint32_t i = s.samples.start[1]; i < s.samples.start[2]; ++i) {
+    bool found = false;
+    for (uint32_t k = s.samples.start[0]; k < s.samples.start[1]; ++k) {
+      found = found || s.samples.position[s.samples.at[i]] == s.samples.position[s.samples.at[k]];
+    }
+    alone += !found;
+  }
+  CHECK(alone == 0);
+}
+
+TEST_CASE("Circles a ten-thousandth apart are sampled like one") {
+  Net net;
+  for (const double z : {0.0, 1e-4}) add_circle(net, {0, 0, z}, {1, 0, 0}, {0, 1, 0}, 96, {});
+  CHECK(Sampled(net, 0.05).samples.position.size() < 600);
+}
