@@ -51,8 +51,10 @@
  * - The same input gives the same bits on every target, whatever the compiler, the optimisation
  *   level or the byte order. Multiplying all input lengths by a power of two multiplies all output
  *   lengths by exactly that.
- * - Sizes: indices have 32 bits, so a mesh has fewer than 2^32 - 1 vertices and the matrix factors
- *   fewer than 2^32 - 1 entries; beyond that the status is WSK_ERROR_TOO_LARGE.
+ * - Sizes: indices have 32 bits, so the matrix factors have fewer than 2^32 - 1 entries, and a mesh
+ *   of the library's fewer than 2^26 vertices, 2^20 edges between two nodes, and 2^16 on the border
+ *   of a patch that no plane shows; beyond that the status is WSK_ERROR_TOO_LARGE, and where the
+ *   spacing asks for more, that is known before anything is meshed.
  *
  * ABI: structs that may grow begin with their size, which the _init function writes; a library
  * newer than the caller never touches bytes beyond it. Numbers of constants never change.
@@ -283,6 +285,13 @@ typedef struct wsk_options {
      without sharing a curve, each has a vertex of its own there. The call fails only where no patch
      can be made. */
   int32_t partial;
+  /* Non-zero: the outside of an open surface need not be tagged (wsk_curve.boundary). Where a patch
+     would run clockwise round its own normals beyond doubt (its vector area is more than a sixtieth
+     of its squared perimeter and lies more than 123 degrees from the mean of its normals) the
+     surface ends instead; wsk_report.found_borders counts such places. The ends of tubes and domes,
+     whose normals stand across their vector area, do not tell and must still be tagged, and so must
+     holes, which would be closed. Zero (the default): such a patch is an error. */
+  int32_t find_borders;
 } wsk_options;
 
 /* Writes the defaults into *options. `size` is sizeof(wsk_options) as the caller knows it. Does
@@ -362,6 +371,12 @@ typedef struct wsk_report {
      the other choice had less than a tenth more area. WSK_NONE where there is no first one. */
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
+  uint32_t found_borders; /* outsides that were left open because of wsk_options.find_borders */
+  /* Triangles of the result that face against those round them: none in a sound one. Where there
+     are some the surface is folded; curves that fold, or normals that contradict them, ask for it.
+     WSK_NONE where there is no first one. */
+  uint32_t inverted_triangles;
+  uint32_t first_inverted_patch;
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
@@ -410,8 +425,9 @@ typedef struct wsk_curve {
      not known; the surface then leaves the curve on that side as it likes, and a patch none of
      whose normals are known spans its border with little area. Both may be equal: then the surface
      is smooth across the curve too, but its curvature may jump there (a hemisphere on a cylinder).
-     A boundary curve may be sharp to have no normals. Zero, as memset leaves it: the curve is
-     smooth, `normals` hold on both sides and `normals_right` is not read. */
+     A boundary curve may be sharp to have no normals; a point has no sides and is never sharp. Zero,
+     as memset leaves it: the curve is smooth, `normals` hold on both sides and `normals_right` is
+     not read. */
   int32_t sharp;
   const double* normals_right;
   size_t normal_right_stride;
@@ -583,7 +599,8 @@ typedef struct wsk_network_counts {
   uint32_t nodes;         /* points with more than one sample */
   uint32_t dangling_ends; /* ends of open curves where no other curve is */
   uint32_t components;    /* connected ones */
-  uint32_t open_gaps;     /* pairs of components nearer than the snapping tolerance */
+  uint32_t open_gaps;     /* pairs of components nearer than the snapping tolerance, where they do
+                             not only pass side by side */
 } wsk_network_counts;
 
 /* What a network holds. The arrays belong to it and live until it is freed. */
@@ -618,15 +635,16 @@ typedef struct wsk_network_view {
  * the same place. Fragments become curves through points at which two ends meet, unless there is a
  * corner; closed curves are recognised. Then curves that come nearer to each other than
  * options.snap are joined, nearest first: ends to ends, ends to the inside of curves, and the
- * insides of curves of different components. Insides of one component are joined only where they
- * cross: at a quarter of the tolerance, or at a hundredth where the network is one component
- * without dangling ends already. Places that the network connects within four tolerances are left
- * alone (loose ends: within four times their distance). Where most gaps are next to nothing, as
- * between curves drawn on a surface, ends that meet a curve come first, every crossing becomes a
- * joint, and curves side by side are joined last, where nothing else joins their components.
- * Existing nodes stay where they are and the curves that come to them bend smoothly; an end comes
- * to the inside of a curve; ends meet in the middle, and so do insides. A joint between samples
- * becomes a sample.
+ * insides of curves where they cross, seen along the gap between them, or touch: to a twentieth of
+ * the tolerance, or to a quarter where one that is no boundary has a corner that points to the
+ * other. Curves side by side stay apart, however near: a hole beside the border of its patch, two
+ * parallels. Insides of one component are joined at a quarter of the tolerance only, or at a
+ * hundredth where the network is one component without dangling ends already. Places that the
+ * network connects within four tolerances are left alone (loose ends: within four times their
+ * distance). Where most gaps are next to nothing, as between curves drawn on a surface, ends that
+ * meet a curve come first, and every crossing becomes a joint. Existing nodes stay where they are
+ * and the curves that come to them bend smoothly; an end comes to the inside of a curve; ends meet
+ * in the middle, and so do insides. A joint between samples becomes a sample.
  *
  * Normals may be null, or zero at samples where they are not known. A curve with some is completed
  * along its length; one without any only where both its ends lie at nodes whose normals other
@@ -851,10 +869,10 @@ typedef struct wsk_flow_view {
  * far they are, noise included.
  *
  * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
- * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial changes
- * nothing, since no patch is ever left out. `options` and `flow_options` may be null (defaults). On
- * success *flow is to be given to wsk_flow_free; it keeps the allocator of the options, not the
- * callbacks. */
+ * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial and
+ * find_borders change nothing, since no patch is ever left out. `options` and `flow_options` may be
+ * null (defaults). On success *flow is to be given to wsk_flow_free; it keeps the allocator of the
+ * options, not the callbacks. */
 WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
                                   const wsk_options* options, const wsk_flow_options* flow_options,
                                   wsk_flow** flow, wsk_report* report);
@@ -1570,6 +1588,10 @@ Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal)
 /* The power of two that brings the extent of the points to one half up to one. */
 Status find_scale(Span<const Vec3> points, int* exponent);
 
+/* Far from the origin doubles are coarse, and what then fails does not look like it: the sentence of */
+/* such a status becomes one that says so. `spacing`: zero if it is not known yet. */
+Status explain_rounding(const Status& status, Span<const Vec3> positions, double spacing);
+
 }  /* namespace wireskin::api */
 /* ======== end src/api/input.h ======== */
 
@@ -1624,9 +1646,10 @@ inline Status checkpoint_at_column(Context& context, uint32_t j) {
 enum class Triangle { lower, upper };
 
 /* One triangle of the symmetrically permuted matrix, diagonal included: column j of `lower` becomes */
-/* column position[j]. Of two mirrored entries the one in the wanted triangle is listed. */
+/* column position[j]. Of two mirrored entries the one in the wanted triangle is listed. The source */
+/* of each may be left out. */
 Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle triangle,
-                       Pattern* result);
+                       Pattern* result, bool with_source = true);
 
 }  /* namespace wireskin::sparse */
 /* ======== end src/sparse/csc.h ======== */
@@ -2006,6 +2029,12 @@ void barycentric_areas(Span<const uint32_t> triangles, Span<const TriangleShape>
 void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
                          Span<double> areas);
 
+/* What each corner of a triangle adds to those. */
+struct CornerAreas {
+  double at[3];
+};
+CornerAreas mixed_voronoi_shares(const TriangleShape& shape);
+
 /* The symmetric matrix Ls of integrated Laplacians, both halves stored: (Ls f)_i is the sum over */
 /* the neighbours of (cot a + cot b) / 2 (f_j - f_i); negative semidefinite where the angles */
 /* opposite to every edge add up to less than pi. */
@@ -2066,6 +2095,24 @@ inline double spring(double share, double cutoff, int order) {
 
 namespace wireskin::sparse {
 
+/* Columns of a lower trapezoid are stored in blocks of eight: each begins with the row of its */
+/* block's first diagonal entry, so the distance of neighbours is eight less in every next block. */
+inline constexpr uint32_t k_trapezoid_block = 8;
+
+/* From an entry of the first column, whose neighbour is `step` away, to that of `column` in the */
+/* same row, which need not be stored. */
+inline size_t trapezoid_offset(size_t step, uint32_t column) {
+  const size_t block = column / k_trapezoid_block, inside = column % k_trapezoid_block;
+  return step * column -
+         k_trapezoid_block * (block * (block - 1) / 2 * k_trapezoid_block + block * (inside + 1));
+}
+
+inline size_t trapezoid_size(size_t step, uint32_t columns) {
+  const size_t block = columns / k_trapezoid_block, inside = columns % k_trapezoid_block;
+  return step * columns -
+         k_trapezoid_block * (block * (block - 1) / 2 * k_trapezoid_block + block * inside);
+}
+
 /* C -= A B^T, or C = -A B^T: entry (i, j) of C loses the sum over k < depth of */
 /* a[i + k * a_step] * b[j * b_out + k * b_step]. */
 struct Update {
@@ -2081,6 +2128,20 @@ struct Update {
   size_t c_step;
   bool lower;      /* entries above the diagonal are not needed */
   bool overwrite;  /* C counts as zero */
+  /* A and B, or C, are columns of trapezoids, the first of them the first of its block. */
+  bool from_trapezoid = false;
+  bool into_trapezoid = false;
+
+  size_t from_column(size_t step, uint32_t k) const {
+    return from_trapezoid ? trapezoid_offset(step, k) : step * k;
+  }
+  size_t into_column(uint32_t j) const {
+    return into_trapezoid ? trapezoid_offset(c_step, j) : c_step * j;
+  }
+  /* The distance of the neighbours of column k or j. */
+  static size_t step_at(size_t step, uint32_t k, bool trapezoid) {
+    return trapezoid ? step - k / k_trapezoid_block * k_trapezoid_block : step;
+  }
 };
 
 /* c[j + l * c_step] loses the sum over k < depth of a[k + j * a_step] * b[k + l * b_step], for j < */
@@ -2158,9 +2219,9 @@ inline uint32_t round_up_rows(uint32_t rows) {
 /* that share their rows exactly, a supernode takes in its last child where that stores few zeros, */
 /* or where both are so narrow that longer panels pay for them. Invariants: the rows of supernode s */
 /* are ascending and begin with its own columns, first[s] .. first[s + 1]; its panel of values */
-/* begins at panel[s], column by column, each with as many rows as round_up_rows() says, and a */
-/* margin behind the last. A panel's values above the diagonal and in the padding mean nothing. */
-/* Cost: linear in the entries and the rows listed, besides sorting each list. */
+/* begins at panel[s], a trapezoid (dense.h) with as many rows as round_up_rows() says, and a margin */
+/* behind the last. A panel's values above the diagonal and in the padding mean nothing. */
+/* Cost: linear in the entries and the rows listed. */
 /* */
 /* Source: Cleve Ashcraft, Roger Grimes, "The Influence of Relaxed Supernode Partitions on the */
 /* Multifrontal Method", 1989. */
@@ -2263,9 +2324,9 @@ Status plan_fronts(const Supernodes& supernodes, uint32_t batch, Fronts* fronts)
 /* The dense Cholesky factorisation of one panel of columns and the update matrix that its rows */
 /* below leave, divided among threads where the caller asks for it. */
 /* */
-/* In: a lower trapezoid, column by column. Out: its factor; the update matrix loses the products of */
-/* the rows below. The bits do not depend on how the work is divided. Cost: that of the products, */
-/* done in blocks of 64 and of 8 columns. */
+/* In: a lower trapezoid, column by column (dense.h says how). Out: its factor; the update matrix */
+/* loses the products of the rows below. The bits do not depend on how the work is divided. Cost: */
+/* that of the products, done in blocks of 64 and of 8 columns. */
 
 namespace wireskin::sparse {
 
@@ -2276,8 +2337,16 @@ struct Panel {
   double* update;   /* square, of height - width rows */
   bool first;       /* the update matrix counts as zero */
 
-  uint32_t step() const { return round_up_rows(height); }
+  uint32_t rows() const { return round_up_rows(height); }
   uint32_t tail() const { return height - width; }
+  /* From an entry of a column to its right neighbour in the same block. */
+  size_t step(uint32_t column) const {
+    return rows() - column / k_trapezoid_block * k_trapezoid_block;
+  }
+  /* The entry of a row in a column; rows above the column's block stand elsewhere. */
+  double* at(uint32_t row, uint32_t column) const {
+    return value + (trapezoid_offset(rows(), column) + row);
+  }
 };
 
 /* What does the work: `scratch` has k_update_scratch numbers for each of `slots` threads. */
@@ -2342,6 +2411,7 @@ class Cholesky {
   struct Batch;
 
   uint32_t slots() const;
+  size_t scratch_size() const;
   Status allocate_workspace();
   Status locate_entries();
   Panel assemble(uint32_t s, const double* source);
@@ -2611,7 +2681,8 @@ struct Settings {
   smooth::Method method = smooth::Method::fair;
   double spacing = 0.0;  /* zero: a hundredth of the diagonal of the bounding box */
   network::SmoothingOptions smoothing;
-  bool partial = false;  /* patches that cannot be made are left out */
+  bool partial = false;       /* patches that cannot be made are left out */
+  bool find_borders = false;  /* curves round which a patch would run clockwise are boundary */
 };
 
 struct Counts {
@@ -2631,6 +2702,8 @@ struct Counts {
   mesh::AngleStatistics dihedral;                              /* across the curves */
   uint32_t failed_patches = 0;
   uint32_t ambiguous_patches = 0, first_ambiguous_patch = k_none;
+  uint32_t found_borders = 0;
+  uint32_t inverted_triangles = 0, first_inverted_patch = k_none;
 };
 
 /* What is known of each patch, those that could not be made included. */
@@ -2771,6 +2844,10 @@ struct Destination {
   const char* missing;
   void (*release)(Handle* handle);
 };
+
+inline Destination<wsk_surface> to_surface(wsk_surface** surface) {
+  return {surface, "there is no place for the surface", wsk_surface_free};
+}
 
 /* `earlier`: what reading other options said. A result that failed at the very end, cancelled while */
 /* it was copied out, is freed. */
@@ -3052,13 +3129,16 @@ Status smooth_polylines(Context& context, const flow::Polylines& polylines,
 /* sample that moved to a given point; every segment is Gabriel, that is, no sample lies in the ball */
 /* of which it is the diameter, but for those counted as too short: below k_least_segment, or below */
 /* the floor where another curve all but coincides with it. Curves side by side get samples side by */
-/* side, so their number does not grow with the narrowness of the gap. Near-linear where arcs are */
-/* not all near each other. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction */
-/* from 3D Curves", 2014, section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells). */
+/* side, so their number does not grow with the narrowness of the gap; those within k_same_curve of */
+/* each other are one as to steps, and the same samples where they coincide. Near-linear where arcs */
+/* are not all near each other. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape */
+/* Reconstruction from 3D Curves", 2014, section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", */
+/* 1995 (shells). */
 
 namespace wireskin::flow {
 
 inline constexpr double k_least_segment = 1e-5;   /* of the diagonal */
+inline constexpr double k_same_curve = 1e-4;      /* of the diagonal */
 inline constexpr double k_given_distance = 0.05;  /* of the greatest step */
 
 struct Samples {
@@ -3117,6 +3197,163 @@ Status find_curve_edges(const Complex& complex, const Samples& samples, CurveEdg
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/curve_edges.h ======== */
 
+/* ======== begin src/flow/straight_lines.h ======== */
+/* Straight pieces of the network: arcs that are, and lines that several of them make in a row. */
+/* */
+/* In: the samples and their complex. Out: for each arc its line, if it is straight; for each line */
+/* its arcs, for each vertex its lines. Arcs that meet at a node are in one line if they go on there */
+/* without a bend that could be seen. With these the complex's edges that run along a line over */
+/* several samples are known, and triangles that all of whose corners lie on one: where everything */
+/* is flat, as on the hull, there are such. Near-linear; quadratic in the straight arcs of a node. */
+
+namespace wireskin::flow {
+
+struct StraightLines {
+  Array<uint32_t> line_of;         /* of each arc, or k_none */
+  Array<uint32_t> arc_start, arc;  /* of each line */
+  Array<uint32_t> start, line;     /* of each vertex of the complex; some more than once */
+
+  explicit StraightLines(Context& context)
+      : line_of(context), arc_start(context), arc(context), start(context), line(context) {}
+  bool is_straight(uint32_t a) const { return line_of[a] != k_none; }
+  /* A line through all of them, or k_none. */
+  uint32_t common(uint32_t u, uint32_t v) const;
+  uint32_t common(uint32_t u, uint32_t v, uint32_t w) const;
+};
+
+Status find_straight_lines(const Complex& complex, const Samples& samples, StraightLines* lines);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/straight_lines.h ======== */
+
+/* ======== begin src/flow/flat_faces.h ======== */
+/* Faces in one plane that curves close, with no curve across them: polygons and discs. */
+/* */
+/* In: the complex, the samples, the curves' edges. Out: the faces, each with its triangles and the */
+/* arcs that bound it. A polygon's border is straight for at least half of its length and has */
+/* corners rather than bends. Found by flooding coplanar triangles of the complex from those at the */
+/* curves, the largest first, not across curves; what has a border elsewhere is dropped. Where four */
+/* samples lie on a circle the complex has flat tetrahedra, and a face all their triangles: several */
+/* layers. Any cycle of curves counts, a face of the solid or a section of it (flat_cells.h tells). */
+/* O(triangles log triangles), and for each in a face its lines and bends; past a bound on these */
+/* there are no faces. The rule is our own; faces as cycles of a wireframe: G. Markowsky, M. A. */
+/* Wesley, "Fleshing Out Wire Frames", 1980. */
+
+namespace wireskin::flow {
+
+inline constexpr double k_flat = 1e-3;         /* of the diagonal, off the plane */
+inline constexpr double k_same_line = 0.9985;  /* cosine of the angle that is none: 3 degrees */
+
+enum class FlatPart : uint8_t { none, disc, polygon, line };
+
+/* An arc that bounds a face, and the direction from it into the face. */
+struct FaceRim {
+  uint32_t arc;
+  Vec3 into;
+};
+
+struct FlatFaces {
+  Array<uint32_t> start, triangle;  /* of face f: triangle[start[f]] .. triangle[start[f + 1] - 1] */
+  Array<Vec3> normal;               /* of each face */
+  Array<uint8_t> polygon;           /* of each face: 0 for a disc */
+  Array<uint32_t> rim_start;
+  Array<FaceRim> rim;    /* of each face, an arc once */
+  Array<FlatPart> part;  /* of each triangle; a line: its corners lie on one, so in no plane */
+
+  explicit FlatFaces(Context& context)
+      : start(context),
+        triangle(context),
+        normal(context),
+        polygon(context),
+        rim_start(context),
+        rim(context),
+        part(context) {}
+  uint32_t size() const { return static_cast<uint32_t>(normal.size()); }
+};
+
+Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
+                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/flat_faces.h ======== */
+
+/* ======== begin src/flow/persistence.h ======== */
+/* The voids that growing balls round the points enclose: which triangle closes a void, which */
+/* tetrahedron is the last of it to be filled, and how much the balls grow in between. */
+/* */
+/* In: a complex with its values. Out: every triangle is a creator (it closes a void, and is paired */
+/* with the tetrahedron that fills it) or a destroyer; voids by decreasing ratio. Valid for any */
+/* values, as they are only compared; the outside is the void that is never filled. */
+/* Cost: sorting the triangles, and almost linear union-find over the tetrahedra. */
+/* Source: H. Edelsbrunner, D. Letscher, A. Zomorodian, "Topological Persistence and */
+/* Simplification", 2002; J. B. Kruskal, "On the Shortest Spanning Subtree of a Graph", 1956. */
+
+namespace wireskin::flow {
+
+struct Void {
+  uint32_t creator;  /* triangle */
+  uint32_t maximum;  /* tetrahedron */
+  double creation;   /* radius at which the creator closes it: sqrt f */
+  double filling;    /* radius at which the maximum fills it: sqrt F, capped */
+  double ratio;  /* filling / creation with both capped at sqrt(3/8) diagonal, the largest that a */
+                 /* true maximum can have (H. Jung, 1901) */
+  bool held;     /* the creator is passed last */
+};
+
+/* When a triangle is passed: before all others; by its radius, or a little later than that, for */
+/* walls that curves hold are surer than those of about the same radius in mid-air; after those; at */
+/* last. */
+enum class Pass : uint8_t { first, by_radius, flat, late, last };
+
+struct Persistence {
+  explicit Persistence(Context& context) : creator(context), void_of(context), voids(context) {}
+
+  Array<uint8_t> creator;   /* for each triangle 1, or 0 for a destroyer */
+  Array<uint32_t> void_of;  /* for each triangle its place in voids, or k_none */
+  Array<Void> voids;  /* held, or of ratio > 1 + 1e-6; held first, by decreasing ratio, then creator */
+};
+
+/* What is passed first parts nothing; what is passed last parts all that only it parts, however */
+/* narrow or wide it is there (flat_cells.h). No turns: all by radius. */
+Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
+                        Span<const Pass> turn = {});
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/persistence.h ======== */
+
+/* ======== begin src/flow/flat_cells.h ======== */
+/* Solids of wireframes: which flat faces are faces of something, and which only cross its inside. */
+/* */
+/* In: the flat faces, any cycle in a plane among them. Out: for each triangle its turn in the */
+/* search for voids, and the curves that are settled. The faces cut space into cells. A face stays */
+/* if its rim needs it: a curve is where two faces make a crease, so a third face at a curve is one */
+/* too many, and two in one plane leave nothing to draw a curve for. Cells are merged, the outside */
+/* among them, the best merger first, as long as that makes the curves' faults fewer: three or more */
+/* faces count as their length, two that are flat as half as much again, none at all is not allowed. */
+/* So the floor of an attic goes, as do the lids of a hole, and the wall between two boxes in a row */
+/* stays. Faces that part cells then are passed last; likewise those of cells that curved faces */
+/* leave open, where none of their curves has too many. Near-linear. Sources: G. Markowsky, M. A. */
+/* Wesley, "Fleshing Out Wire Frames", 1980, for cells and edges; the weights are our own. */
+
+namespace wireskin::flow {
+
+/* Whether a curve has use for a wall: it has flat faces on both sides already, or on one. */
+enum class Need : uint8_t { open, settled, waiting };
+
+struct FlatCells {
+  Array<Pass> turn;  /* of each triangle; empty where there are no faces */
+  Array<Need> need;  /* of each edge of the curves, and of each chord */
+
+  explicit FlatCells(Context& context) : turn(context), need(context) {}
+};
+
+Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
+                       const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
+                       FlatCells* cells);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/flat_cells.h ======== */
+
 /* ======== begin src/flow/sheet.h ======== */
 /* A set of triangles of the complex, and the peeling of it from its free edges. */
 /* */
@@ -3167,64 +3404,6 @@ Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/sheet.h ======== */
 
-/* ======== begin src/flow/flat_faces.h ======== */
-/* Faces of wireframes: where curves in one plane close a polygon or a ring, with nothing in it. */
-/* */
-/* In: the complex, the samples, the curves' edges, the walls of all rooms. Out: for each triangle */
-/* whether it lies in such a face, and whether the face is a polygon: at least half of its border is */
-/* straight, and has corners rather than bends. Found by flooding coplanar triangles of the walls */
-/* from the largest one on; a set counts if at each of its edges off the curves it lies on both */
-/* sides. O(triangles log triangles). Source: the rule is our own. */
-
-namespace wireskin::flow {
-
-enum class Flatness : uint8_t { none, plane, polygon };
-
-Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const Sheet& sheet, Array<Flatness>* flatness);
-
-}  /* namespace wireskin::flow */
-/* ======== end src/flow/flat_faces.h ======== */
-
-/* ======== begin src/flow/persistence.h ======== */
-/* The voids that growing balls round the points enclose: which triangle closes a void, which */
-/* tetrahedron is the last of it to be filled, and how much the balls grow in between. */
-/* */
-/* In: a complex with its values. Out: every triangle is a creator (it closes a void, and is paired */
-/* with the tetrahedron that fills it) or a destroyer; voids by decreasing ratio. Valid for any */
-/* values, as they are only compared; the outside is the void that is never filled. */
-/* Cost: sorting the triangles, and almost linear union-find over the tetrahedra. */
-/* Source: H. Edelsbrunner, D. Letscher, A. Zomorodian, "Topological Persistence and */
-/* Simplification", 2002; J. B. Kruskal, "On the Shortest Spanning Subtree of a Graph", 1956. */
-
-namespace wireskin::flow {
-
-struct Void {
-  uint32_t creator;  /* triangle */
-  uint32_t maximum;  /* tetrahedron */
-  double creation;   /* radius at which the creator closes it: sqrt f */
-  double filling;    /* radius at which the maximum fills it: sqrt F, capped */
-  double ratio;  /* filling / creation with both capped at sqrt(3/8) diagonal, the largest that a */
-                 /* true maximum can have (H. Jung, 1901) */
-  bool loose;    /* the creator lies in a loose wall */
-};
-
-struct Persistence {
-  explicit Persistence(Context& context) : creator(context), void_of(context), voids(context) {}
-
-  Array<uint8_t> creator;   /* for each triangle 1, or 0 for a destroyer */
-  Array<uint32_t> void_of;  /* for each triangle its place in voids, or k_none */
-  Array<Void> voids;        /* ratio > 1 + 1e-6, by decreasing ratio, then creator */
-};
-
-/* Triangles marked `loose`, if any are, are passed before all others, so that what they part counts */
-/* as one void (loose_walls.h). */
-Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
-                        Span<const uint8_t> loose = {});
-
-}  /* namespace wireskin::flow */
-/* ======== end src/flow/persistence.h ======== */
-
 /* ======== begin src/flow/topology.h ======== */
 /* The topological reconstruction: which voids there are, and the walls between them, bounded by */
 /* curves. */
@@ -3233,11 +3412,12 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
 /* left after peeling, opening of handles and removal of walls that no curve bounds. Invariants: the */
 /* walls separate exactly the chosen voids and the outside from each other; no piece of curve that */
 /* had a triangle loses its last one. Method: destroyers and chosen creators, peeled from all edges */
-/* but the curves'; a void counts only if its wall ends on curves, which triangulations of nearly */
-/* round tubes feign; a flat polygon between a room and the outside counts whatever the room's */
-/* ratio; then triangles with the same void on both sides go, greatest radius first, as far as they */
-/* are not fins. O(triangles) for a void tried, near-linear else. Source: B. Sadri, K. Singh, */
-/* "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.3 and figure 13. */
+/* but the curves; a void counts only if its wall ends on curves that have use for it, which */
+/* triangulations of nearly round tubes feign; voids behind flat faces, and those that wait for one */
+/* more face, count whatever their ratio; then triangles with the same void on both sides go, */
+/* greatest radius first, as far as they are not fins. O(triangles) for a void tried, near-linear */
+/* else. Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, */
+/* section 4.3 and figure 13. */
 
 namespace wireskin::flow {
 
@@ -3259,17 +3439,35 @@ struct Topology3 {
       : chosen(context), walls(context), closed(context), label(context) {}
 };
 
+/* What a wall ends on, as lengths. */
+struct WallBorder {
+  double whole = 0.0;
+  double loose = 0.0;    /* off the curves and their chords */
+  double in_face = 0.0;  /* of that, where it merges into a flat face that waits for others */
+  double settled = 0.0;  /* on curves that have no use for the wall */
+  double waiting = 0.0;  /* on curves that have a flat face on their other side */
+
+  /* No curve is there for the sake of the wall, or few. */
+  bool is_idle() const { return loose + settled > 0.6 * whole; }
+  /* Curves are there that lack only this wall; it may reach the flat faces at them a little early. */
+  bool is_wanted() const {
+    return waiting >= 0.6 * whole && settled + loose - in_face <= 0.1 * whole;
+  }
+};
+
+WallBorder measure_border(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
+                          const Sheet& sheet, Span<const uint32_t> wall);
+
 /* The components of the complement of a sheet: joins all tetrahedra not separated by it. The */
 /* outside is the last entry. Labels are least members. */
 Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* label);
 
-/* `flatness` is empty where flat faces are nothing special. */
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    Span<const Flatness> flatness, const Persistence& persistence,
+                    const FlatCells& cells, const Persistence& persistence,
                     const TopologyOptions& options, Array<uint32_t>* chosen);
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            Span<const Flatness> flatness, const Persistence& persistence,
+                            const FlatCells& cells, const Persistence& persistence,
                             const TopologyOptions& options, Topology3* topology);
 
 }  /* namespace wireskin::flow */
@@ -3328,7 +3526,7 @@ struct Patches {
 };
 
 Status cut_patches(Context& context, const Complex& complex, const CurveEdges& curves,
-                   const Samples& samples, const Persistence& persistence,
+                   const Samples& samples, const FlatCells& cells, const Persistence& persistence,
                    const Topology3& topology, Patches* patches);
 
 }  /* namespace wireskin::flow */
@@ -3365,8 +3563,9 @@ Status find_tangents(const Samples& samples, SampleTangents* tangents);
 
 /* Updates topology->walls and ->label. */
 Status thicken_and_prune(Context& context, const Complex& complex, const CurveEdges& curves,
-                         const Persistence& persistence, const SampleTangents& tangents,
-                         const ThickenOptions& options, Topology3* topology);
+                         const FlatCells& flat, const Persistence& persistence,
+                         const SampleTangents& tangents, const ThickenOptions& options,
+                         Topology3* topology);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/thicken.h ======== */
@@ -3399,7 +3598,7 @@ struct Flow {
   Samples samples;
   Complex complex;
   CurveEdges curves;
-  Array<Flatness> flatness;  /* of each triangle of the complex */
+  FlatCells cells;
   Persistence persistence;
   SampleTangents tangents;
 
@@ -3408,7 +3607,7 @@ struct Flow {
         samples(context),
         complex(context),
         curves(context),
-        flatness(context),
+        cells(context),
         persistence(context),
         tangents(context) {}
 };
@@ -4005,6 +4204,22 @@ void sort(Span<T> values, const Less& less) {
   }
 }
 
+/* Writes different numbers to `to`, ascending. The place of each of a few is the count of those */
+/* less than it: nothing there that a processor could foresee wrongly. */
+inline void sort_distinct(const uint32_t* values, uint32_t count, uint32_t* to) {
+  constexpr uint32_t k_few = 32;
+  if (count > k_few) {
+    std::memcpy(to, values, count * sizeof(uint32_t));
+    sort(Span<uint32_t>{to, count}, [](uint32_t a, uint32_t b) { return a < b; });
+    return;
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    uint32_t place = 0;
+    for (uint32_t k = 0; k < count; ++k) place += values[k] < values[i];
+    to[place] = values[i];
+  }
+}
+
 }  /* namespace wireskin */
 /* ======== end src/base/sort.h ======== */
 
@@ -4107,7 +4322,14 @@ Vec3 parabola_tangent(Span<const double> knots, Span<const Vec3> values, bool la
 
 /* Value and derivative at parameter t of interval i, knot[i] <= t <= knot[i + 1]. */
 Vec3 spline_value(const Spline& spline, size_t i, double t);
-Vec3 spline_derivative(const Spline& spline, size_t i, double t);
+inline Vec3 spline_derivative(const Spline& spline, size_t i, double t) {
+  const double left = spline.knot[i], right = spline.knot[i + 1];
+  const double h = right - left;
+  const double a = (right - t) / h, b = (t - left) / h;
+  return (1.0 / h) * (spline.value[i + 1] - spline.value[i]) +
+         (h * (1.0 - 3.0 * a * a) / 6.0) * spline.moment[i] +
+         (h * (3.0 * b * b - 1.0) / 6.0) * spline.moment[i + 1];
+}
 
 }  /* namespace wireskin::curves */
 /* ======== end src/curves/spline.h ======== */
@@ -4762,27 +4984,6 @@ Status radix_sort(Context& context, Array<BitsKey>* keys);
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/radix_sort.h ======== */
 
-/* ======== begin src/flow/loose_walls.h ======== */
-/* Walls that no curve holds: they cross a room in mid-air, where growing balls happen to meet, and */
-/* end on other walls. A person sees the room go on, however narrow it is there. */
-/* */
-/* In: the complex, the samples, the curves' edges. Out: the flat faces; the persistence of the */
-/* complex with the loose walls passed before all others (persistence.h), which joins the rooms that */
-/* they part; for each triangle whether it lies in one. All rooms are cut out. A wall is loose if it */
-/* ends in the middle of flat faces along a quarter of its border, or, with rooms on both sides or */
-/* none, on walls of any shape along nearly all of it; where three or more meet off the curves, the */
-/* two that continue each other most evenly do not end. What is passed first changes what closes the */
-/* other rooms, so this repeats, eight rounds at most. Near-linear a round. The rule is our own. */
-
-namespace wireskin::flow {
-
-Status find_persistence_of_faces(Context& context, const Complex& complex, const Samples& samples,
-                                 const CurveEdges& curves, Array<Flatness>* flatness,
-                                 Persistence* persistence, Array<uint8_t>* loose);
-
-}  /* namespace wireskin::flow */
-/* ======== end src/flow/loose_walls.h ======== */
-
 /* ======== begin src/num/expansion.h ======== */
 /* Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum, */
 /* difference, scaling and product, of a size fixed at compile time and wholly on the stack. compact */
@@ -5303,7 +5504,7 @@ Status minimum_degree(const Csc& lower, Array<uint32_t>* order);
 /* form more than one fan, or that have none; edges of curves that are no edge of the mesh; a wrong */
 /* Euler characteristic; coordinates that are not finite; triangles without area, or whose height is */
 /* below k_least_height of their longest edge; triangles that face against their patch's normal; */
-/* neighbours in one patch that are folded onto each other. */
+/* neighbours in one patch that are folded onto each other; inverted triangles (mesh/inverted.h). */
 /* Out: ok, or index_out_of_range, not_a_number or bad_mesh with the vertex or triangle in the */
 /* place; for a missing edge its first end is the vertex. Cost: O(vertices + triangles + edges). */
 
@@ -5321,13 +5522,37 @@ struct Expectations {
   Span<const uint32_t> patch = {};     /* of each triangle; empty: one patch */
   Span<const Vec3> patch_normal = {};  /* which way its triangles face, zero: not known; or empty */
   const int32_t* euler_characteristic = nullptr;  /* null: not known */
-  bool may_fold = false;  /* no look at folds: where the curves themselves have a cusp */
+  /* No look at folds and inverted triangles: where the curves themselves have a cusp. */
+  bool may_fold = false;
 };
 
 Status check(Context& context, const Expectations& mesh);
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/check.h ======== */
+
+/* ======== begin src/mesh/inverted.h ======== */
+/* Triangles that lie upside down: they face against the triangles round them. */
+/* */
+/* In: a manifold mesh and the patch of each triangle. A triangle is inverted if it faces against */
+/* one of its neighbours in the patch and, at each of its corners that has other triangles of the */
+/* patch, against their sum (by area). So in a plane inverted is what runs clockwise among others */
+/* that do not; a crease between patches, a cusp or a sharp bend of several triangles has none. Out: */
+/* how many there are, and the first. O(triangles). */
+
+namespace wireskin::mesh {
+
+struct Inverted {
+  uint32_t count = 0;
+  uint32_t first = k_none;  /* triangle */
+};
+
+/* `patch` may be empty: there is one. */
+Status find_inverted(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
+                     Span<const uint32_t> patch, Inverted* inverted);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/inverted.h ======== */
 
 /* ======== begin src/mesh/cut.h ======== */
 /* A mesh cut open along some of its edges: every vertex has a copy in each sector of its fan */
@@ -5704,8 +5929,9 @@ struct Beads {
   Vec3 point_at(const WirePlace& place) const {
     return point_of_place(wires, curve[place.edge], place);
   }
-  Vec3 direction_at(const WirePlace& place) const;  /* along the curve, of any length */
-  Vec3 normal_at(const WirePlace& place) const;     /* not unit; zero where it is not known */
+  Vec3 direction_at(
+      const WirePlace& place) const;             /* along the curve, of any length; of a point zero */
+  Vec3 normal_at(const WirePlace& place) const;  /* not unit; zero where it is not known */
   Origin origin_of(const WirePlace& place) const;
 
   BeadPlace locate(const WirePlace& place) const;
@@ -5764,10 +5990,11 @@ namespace wireskin::network {
 
 struct Node {
   Vec3 position;
-  Vec3 normal;          /* unit; zero where no normal is known yet */
-  uint32_t number;      /* the caller's */
-  bool crease = false;  /* sharp curves pass here */
-  bool certain = true;  /* all normals here are known */
+  Vec3 normal;                    /* unit; zero where no normal is known yet */
+  uint32_t number;                /* the caller's */
+  bool crease = false;            /* sharp curves pass here */
+  bool certain = true;            /* all normals here are known */
+  uint32_t point_curve = k_none;  /* the least curve of one sample that lies here */
 };
 
 /* The samples of all curves one after the other; curve c has start[c] .. start[c + 1). */
@@ -5786,7 +6013,7 @@ Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* n
                   Array<uint32_t>* node_of_sample);
 
 /* Ends of open curves that nothing else meets, and points (curves of one sample), become nodes too, */
-/* without a number and behind all others. `closed`: of each curve. */
+/* without a number and behind all others; each node learns of its points. `closed`: of each curve. */
 Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, Array<Node>* nodes,
                       Span<uint32_t> node_of_sample);
 
@@ -5989,9 +6216,12 @@ Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t
 /* or for crossings (network/linking.h). */
 /* */
 /* In: the loops of a border with their normals (zero: unknown). Out: a status without place. */
-/* O(n^2), with cheap rejections. */
+/* O(n^2), though mostly for network/linking.h. */
 
 namespace wireskin::network {
+
+/* Beyond doubt: the vector area is large and points against the mean normal. */
+bool runs_clockwise(const Border& border);
 
 /* Fails with patch_folded or patch_without_plane. */
 Status check_border(const Border& border);
@@ -6130,6 +6360,41 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Ve
 }  /* namespace wireskin::network */
 /* ======== end src/network/crease.h ======== */
 
+/* ======== begin src/network/crossing.h ======== */
+/* Whether curves that come near each other are meant to meet there, or pass side by side. */
+/* */
+/* In: the curves and one of their approaches. Seen along the gap the two curves cross if, going */
+/* round the place, branches of both come by turns: a, b, a, b. What runs along the other curve */
+/* within ten degrees, or along the gap, is no branch; so a closed curve beside another one, and two */
+/* that are parallel for a while, do not cross. Branches are seen two gaps away from the place, */
+/* since that is where the gap stops to matter, and at a node those of all curves together. Where a */
+/* curve ends at nothing there is nothing to cross: an end may meet whatever is near. Between these */
+/* stands the corner, or node, that points to the other curve: all its branches lead away from that, */
+/* in space or seen along the gap; but corners of boundary curves do not, as holes have them. */
+/* O(curves at the place), at most 64 samples each. */
+
+namespace wireskin::network {
+
+/* Whether curves with these unit directions run along each other, either way. */
+bool run_along(const Vec3& a, const Vec3& b);
+
+struct Branch {
+  Vec3 direction;  /* unit, across the gap */
+  double turn;     /* ascends with the angle round the gap */
+  bool of_a;
+  bool away;  /* leads away from the other curve */
+  bool along = false;
+};
+
+enum class Contact : uint8_t { meets, points, beside };
+
+/* `scratch` is overwritten. */
+Status judge_contact(const Beads& beads, const Approach& approach, Array<Branch>* scratch,
+                     Contact* contact);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/crossing.h ======== */
+
 /* ======== begin src/network/plane.h ======== */
 /* The plane of a patch: through the mean position of its border, across the mean normal; across the */
 /* vector area of the border where it has no normals. */
@@ -6206,8 +6471,8 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
 /* Loops as those see them that ask what they face: thinned to places with their conormals, which */
 /* point into the patch along the surface. */
 /* */
-/* In: borders of patches. Out: places, the area of a band between two loops, and which loop a place */
-/* looks at. All take time in proportion to the places they compare. */
+/* In: borders of patches. Out: places, and the area of a band between two loops, in time in */
+/* proportion to the pairs of places. */
 
 namespace wireskin::network {
 
@@ -6235,42 +6500,20 @@ Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reve
 /* elsewhere; negative where they do not lead there. */
 double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, double least_cosine);
 
-/* The patch that a place of a loop looks at, and how far along the surface that is. */
-struct Sight {
-  uint32_t loop = k_none;
-  double distance = DBL_MAX;
-};
-
-/* The nearest place whose conormal looks back: the way between two conormals that turn by a and b */
-/* from the chord is longer than it by about 2 / (1 + cosine) of either. Loops that are `hidden` do */
-/* not count. */
-Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
-           Span<const uint8_t> hidden);
-
 }  /* namespace wireskin::network */
 /* ======== end src/network/facing.h ======== */
 
 /* ======== begin src/network/group.h ======== */
-/* Which loops bound a patch together, and which pieces lie inside which patch: the connected */
-/* components of a network brought together. */
+/* Which loops bound a patch together, and which pieces lie inside which patch. */
 /* */
 /* In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same */
 /* network with patches of several loops and with inner segments and points. Four rules, in this */
-/* order; where none applies every cycle stays a patch. */
-/* 1. A component enclosed by a patch in its plane (network/enclosure.h) joins it by the cycle that */
-/* runs clockwise there and faces the same way. A ring of boundary curves becomes a hole; what */
-/* bounds nothing (dangling curves, points) holds the patch's inside. */
-/* 2. Other loops face each other: where the conormals, which point into the patch along the */
-/* surface, lead from either loop to the other, and a band between the two has less area than */
-/* closing both alone would take: the spherical cap that leaves a loop along its conormals, 2 A / (1 */
-/* + m) for a circle of area A and the mean cosine m between its normals and its axis, times (2 / (1 */
-/* + m))^2. Nearest pairs join first, never loops that pass the same vertex. */
-/* 3. What is left and lies on the guessed surface of a patch (network/nearest_patch.h) joins it as */
-/* by rule 1: pieces that bound nothing, loops that run clockwise, rings. A piece also says which */
-/* side of a ring has the surface. */
-/* 4. A loop that still is alone and runs clockwise round its normals joins the patch at which most */
-/* of its places look: the nearest border, along their conormals, whose conormals look back. O(n log */
-/* n) and the pairs that are near each other. */
+/* order, each in a file of its own; where none applies every cycle stays a patch. */
+/* 1. A component that a patch encloses in its plane joins it (group_enclosed.h). */
+/* 2. Loops that see each other along the surface join (group_sight.h). */
+/* 3. Other loops face each other over a band of little area (group_facing.h). */
+/* 4. What lies on the guessed surface of a patch joins it (group_guests.h). */
+/* Rules 1 to 3 make new patches before rule 4 looks. O(n log^2 n) and the pairs that are near. */
 
 namespace wireskin::network {
 
@@ -6287,6 +6530,144 @@ Status group_patches(const CurveVertices& vertices, Network* network,
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/group.h ======== */
+
+/* ======== begin src/network/grouping.h ======== */
+/* The state that the rules of network/group.h hand on: which cycles are one patch so far. */
+/* */
+/* In: a network every cycle of which is a patch of its own, and the curve vertices. `parent` and */
+/* `next` are union-find with a ring through each set, so that the patches of a group are walked in */
+/* the time of their number. A ring of boundary curves may be turned over (`reversed`). Joining is */
+/* O(1) but for the search of the roots; asking whether two groups meet takes their corners. */
+
+namespace wireskin::network {
+
+struct Grouping {
+  const CurveVertices& vertices;
+  Network* network;
+  Components components;
+  Lists corner;                /* of each patch: the vertices at the ends of its segments, ascending */
+  Lists at_corner;             /* of each vertex: the patches that have it as corner */
+  Array<Enclosing> enclosing;  /* of each component */
+  Array<uint32_t> component;   /* of each patch */
+  Array<uint32_t> parent;      /* of each patch */
+  Array<uint32_t> next;        /* of each patch: another one of its group, all the way round */
+  Array<uint8_t> reversed;     /* of each patch */
+  Array<uint8_t> told;         /* of each patch: a ring whose side something inside it tells */
+  Array<uint32_t> holder;      /* of each component that bounds nothing: its patch */
+  Array<uint32_t> doubtful;    /* the same where another patch may be the right one */
+  Array<uint8_t> ambiguous;    /* of each patch */
+  Array<uint8_t> passed;       /* of each vertex, zero between questions */
+
+  Grouping(Context& context, const CurveVertices& of, Network* net);
+  uint32_t root(uint32_t p) {
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
+  }
+  void join(uint32_t a, uint32_t b);
+  bool is_alone(uint32_t p) const { return next[p] == p; }
+};
+
+Status take_components(Grouping* g);
+
+/* Whether two groups are one, or have loops that pass the same vertex: a patch that meets itself */
+/* across a curve is never what normals ask for where another loop was nearer. */
+bool share_vertex(Grouping* g, uint32_t a, uint32_t b);
+
+/* The cosine between normals and axis in the mean over a border, and the area that it encloses. */
+double closing_cosine(const Border& border, double* area);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/grouping.h ======== */
+
+/* ======== begin src/network/group_enclosed.h ======== */
+/* Rule 1 of network/group.h: a component that a patch encloses in its plane joins that patch. */
+/* */
+/* In: the components, and which patch encloses each (network/enclosure.h). Out: of a component that */
+/* bounds something the cycle that runs clockwise in the plane and faces the same way, the largest */
+/* such, joined to the patch round it, so that a ring of boundary curves becomes a hole; a component */
+/* that bounds nothing (dangling curves, points) gets its holder, or a doubtful one where it faces */
+/* another way. The outermost join first: what lies in a hole is enclosed by nothing. O(border) for */
+/* each component, and sorting. */
+
+namespace wireskin::network {
+
+/* `g->enclosing` is to be filled. */
+Status join_enclosed(Grouping* g);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_enclosed.h ======== */
+
+/* ======== begin src/network/group_facing.h ======== */
+/* Rule 3 of network/group.h: loops face each other where a band between them has less area than */
+/* closing both alone would take. */
+/* */
+/* In: the loops that nothing was joined to yet, rings of boundary curves by both sides. Out: pairs */
+/* joined, the band with the least area first. Conormals must lead from either loop to the other */
+/* (network/facing.h); closing a loop alone takes the spherical cap that leaves it along its */
+/* conormals, for a circle of area A and the mean cosine m between its normals and its axis 2 A / */
+/* (1 + m), times (2 / (1 + m))^2 for what it bends. Loops that pass the same vertex never join. */
+/* A join is ambiguous where another choice has hardly more area. O(n^2) in the loops that are near */
+/* each other. */
+
+namespace wireskin::network {
+
+Status join_facing(Grouping* g);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_facing.h ======== */
+
+/* ======== begin src/network/group_guests.h ======== */
+/* Rule 4 of network/group.h: what lies on the guessed surface of a patch joins that patch. */
+/* */
+/* In: what the rules before have left alone: pieces that bound nothing and are not `settled`, loops */
+/* that run clockwise round their normals, rings of boundary curves. Out: those that lie on the */
+/* surface guessed of a patch from its border alone (network/nearest_patch.h) joined to it or held */
+/* by it; a piece also says which side of a ring has the surface. O(guests times the triangles of */
+/* the guesses near them). */
+
+namespace wireskin::network {
+
+/* `settled`: of each component, whether it has its holder already. */
+Status join_guests(Grouping* g, Span<const uint8_t> settled);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_guests.h ======== */
+
+/* ======== begin src/network/group_sight.h ======== */
+/* Loops that see each other bound a patch together: the ends of tubes, a hole and what is round it, */
+/* limbs that leave a body; also where other curves connect them. */
+/* */
+/* In: what rule 1 of network/group.h has joined. Out: more groups joined. A disc inside a loop that */
+/* hardly turns has a curvature of pi and more: such a loop asks every place what it sees */
+/* (network/sight.h). A group of loops is joined to what it sees best, as long as the evidence */
+/* lasts: the mean cosine at which it is seen, how little way that is against the spherical cap over */
+/* the loop (area over length; 2 A / (1 + m) for a circle of area A and mean cosine m between */
+/* normals and axis, times (2 / (1 + m))^2), the loop's own curvature, and the curvature that the */
+/* joint patch is spared (by Gauss and Bonnet 4 pi less than the two alone). The weights are those */
+/* of a logistic regression over the loops of random cuts of four meshes. O(n log^2 n) and a few */
+/* rounds. */
+
+namespace wireskin::network {
+
+Status join_in_sight(Grouping* g);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_sight.h ======== */
+
+/* ======== begin src/network/regroup.h ======== */
+/* Writes groups of cycles as the patches of a network. */
+/* */
+/* In: which cycles are one patch, which rings are turned over, and what lies inside. Out: the */
+/* network with patches of several loops, in the order of the least old patch of each, with inner */
+/* segments and points; segments and loose pieces stay as they are. O(n log n). */
+
+namespace wireskin::network {
+
+/* `number`: of each old patch the new one; `ambiguous`: of each new patch. */
+Status rebuild(Grouping* g, Array<uint32_t>* number, Array<uint8_t>* ambiguous);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/regroup.h ======== */
 
 /* ======== begin src/network/nearest_patch.h ======== */
 /* On which patch's surface a piece of the network lies that no patch encloses in a plane: the */
@@ -6332,6 +6713,85 @@ uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/nearest_patch.h ======== */
+
+/* ======== begin src/network/sight.h ======== */
+/* What the border of a patch looks at: from every place of a loop along its conormal, which points */
+/* into the patch along the surface, to the nearest place whose conormal looks back. */
+/* */
+/* In: borders of patches. Out: places thinned to at most 32 a loop, and of each place what it sees. */
+/* The way between two places that turn by angles a and b from the chord, and whose normals differ */
+/* by t when carried along, counts as chord 8 / ((1 + cos a) (1 + cos b) (1 + cos t)); where the */
+/* place met would rather look elsewhere it counts as more in that proportion. Of its own loop a */
+/* place sees what is not beside it. Nothing is seen beyond four times the loop's length. Places */
+/* stand in a tree of boxes: O(n log^2 n) to build, and about O(log n) a look. The curvature of the */
+/* patch that a loop would bound alone follows from how it turns (C. F. Gauss, 1827; O. Bonnet, */
+/* 1848). */
+
+namespace wireskin::network {
+
+struct SightLoop {
+  uint32_t patch;
+  bool reversed;          /* the other side of a ring */
+  uint32_t first, count;  /* of the places */
+  double curvature;       /* of a disc inside the loop */
+  double reach;           /* how far it looks at most */
+};
+
+struct SightPlace {
+  Vec3 position, conormal, normal;
+  uint32_t loop;
+};
+
+struct SightBox {
+  Vec3 low, high;
+  uint32_t first, count;  /* in `order` */
+  uint32_t second;        /* the right child, the left one follows; k_none in a leaf */
+};
+
+/* What a place sees; `loop` k_none: nothing. */
+struct Sight {
+  uint32_t loop = k_none;
+  double way = 0.0;     /* in proportion more where the place seen rather looks elsewhere */
+  double cosine = 0.0;  /* between conormal and chord */
+};
+
+struct SightMap {
+  const Lists& corner;  /* of each patch: the vertices where its segments end, ascending */
+  Array<SightLoop> loop;
+  Array<SightPlace> place;
+  Array<uint32_t> order;
+  Array<SightBox> box;
+  Array<double> nearest;  /* of each place: the way to what it sees, negative before it was asked */
+
+  SightMap(Context& context, const Lists& corners)
+      : corner(corners),
+        loop(context),
+        place(context),
+        order(context),
+        box(context),
+        nearest(context) {}
+};
+
+/* The integral of the curvature over a disc inside a loop, from how the loop turns. */
+double curvature_inside(const Border& border, uint32_t loop);
+
+/* Whether all normals of a loop are known. */
+bool knows_normals(const Border& border, uint32_t loop);
+
+Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool reversed,
+                      SightMap* map);
+
+/* Once all loops were added. */
+Status build_sight_tree(SightMap* map);
+
+/* About how long the surface is from p to q; negative where they do not look at each other. */
+double way_between(const SightPlace& p, const SightPlace& q);
+
+/* What place i sees. Loops that are `hidden` do not count, nor those that pass the same vertex. */
+Sight look(SightMap* map, uint32_t i, Span<const uint8_t> hidden);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/sight.h ======== */
 
 /* ======== begin src/network/kept_parts.h ======== */
 /* The kept samples of a network, one connected component after the other: curves that share a node */
@@ -6467,6 +6927,26 @@ Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes);
 }  /* namespace wireskin::network */
 /* ======== end src/network/node_normals.h ======== */
 
+/* ======== begin src/network/outsides.h ======== */
+/* The cycles round the outside of an open surface whose border no one tagged: taken for patches, */
+/* they run clockwise round their own normals. */
+/* */
+/* In: nodes, network and vertices of its curves. Out: nodes and network without such patches, the */
+/* curves there being boundary. A patch that holds curves or points is kept, and so is one without */
+/* which a curve would bound nothing: they fail later, with their place. Which side of a closed */
+/* curve has the surface cannot be told for tubes and domes, whose normals stand across the vector */
+/* area of their ends: those have to be tagged. O(border). */
+
+namespace wireskin::network {
+
+/* `original`: of each patch that is left, its number before; empty where all are left. `faults`: of */
+/* each segment, as from find_patches; cut down with the segments; may be empty. */
+Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network* network,
+                     Array<Status>* faults, Array<uint32_t>* original);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/outsides.h ======== */
+
 /* ======== begin src/network/partial.h ======== */
 /* A network without some of its patches, for callers who want the others all the same. */
 /* */
@@ -6477,12 +6957,43 @@ Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes);
 
 namespace wireskin::network {
 
-/* `original`: of each patch that is left, its number before. */
+/* `original`: of each patch that is left, its number before. `faults`, if given: of each segment, */
+/* cut down with the segments; may be empty. */
 Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
-                    Array<uint32_t>* original);
+                    Array<uint32_t>* original, Array<Status>* faults = nullptr);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/partial.h ======== */
+
+/* ======== begin src/network/size_limit.h ======== */
+/* Whether the surface of a network would have more vertices than the library makes, told before any */
+/* of them is made. */
+/* */
+/* In: fitted curves, the cycles before they are grouped, the spacing. No surface over a cycle has */
+/* less area than its vector area, and triangles of a size have 1.15 vertices a square: that, a */
+/* fifth off for curves that bulge less than their knots, is what each cycle needs at the least. */
+/* Where there are several components, what others enclose is taken off, since it may be a hole. */
+/* Out: too_large with the patch that needs most and a curve of it, or else the curve that needs */
+/* most. O(samples). */
+
+namespace wireskin::network {
+
+/* About a hundred GiB, and more than matrix factors with 32-bit indices can be made for. */
+inline constexpr uint32_t k_most_vertices = 1u << 26;
+/* What is done to a patch that no plane shows takes time in the square of this. */
+inline constexpr uint32_t k_longest_border_in_space = 1u << 16;
+/* With so many edges between two nodes a patch has room for few rows of triangles. */
+inline constexpr uint32_t k_most_edges_of_segment = 1u << 20;
+
+Status check_vertex_count(const curves::Curves& curves, const Network& network, double spacing);
+
+/* The same of one patch that no plane shows, with its loops together; no place. What joins loops of */
+/* vector areas V that are d apart has an area of V / 2 or d sqrt(2 pi V) at least: sections between */
+/* them are as long as what they enclose demands, or enclose less than half of it. */
+Status check_border_size(const Border& border, double spacing);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/size_limit.h ======== */
 
 /* ======== begin src/planar/polygon_mesh.h ======== */
 /* A triangle mesh of a region of the plane whose border and inner curves are kept bit for bit: */
@@ -6520,35 +7031,35 @@ Status mesh_polygon(Context& context, Span<const Vec2> border, double spacing, P
 /* ======== begin src/network/snap_order.h ======== */
 /* In which order approaches of curves are to be joined. */
 /* */
-/* In: the curves, their approaches, nearest first, the tolerance. Out: how exact the curves are (of */
-/* those drawn on a surface at least three quarters of the gaps are next to nothing) and the pass of */
-/* each approach. Of exact curves, ends that clearly meet a curve are settled first, or crossings */
-/* near them would take them away; curves side by side come last, when all is joined that crosses. */
-/* Of others what is nearest is what is likeliest: one pass. O(approaches). */
+/* In: the curves, their approaches, nearest first, the tolerance. Out: which approaches are of */
+/* curves side by side (network/crossing.h), whose insides are not meant to meet; how exact the */
+/* curves are (of those drawn on a surface at least three quarters of the gaps are next to nothing); */
+/* and the pass of each approach. Of exact curves, ends that clearly meet a curve are settled first, */
+/* or crossings near them would take them away, and curves side by side come last. Of others what is */
+/* nearest is what is likeliest: one pass. O(approaches). */
 
 namespace wireskin::network {
 
 /* Within one component insides are joined only this much nearer than the tolerance: where curves */
-/* cross, and not where they pass each other. */
+/* cross, and not where they pass each other. So is a corner to the curve that it points to. */
 inline constexpr double k_crossing = 0.25;
-/* A gap of exact curves is no wider than this part of the tolerance. */
+/* A gap of exact curves is no wider than this part of the tolerance; and curves that are as near as */
+/* that touch, in whatever direction they go on. */
 inline constexpr double k_exact = 0.05;
 
 enum class SnapPass : uint8_t { settled, crosses, beside };
 
 struct SnapPlan {
-  Array<SnapPass> pass;  /* of each approach */
+  Array<SnapPass> pass;   /* of each approach */
+  Array<uint8_t> beside;  /* of each approach: only an end there is to be joined */
   bool exact = false;
 
-  explicit SnapPlan(Context& context) : pass(context) {}
+  explicit SnapPlan(Context& context) : pass(context), beside(context) {}
 };
 
 /* `complete`: nothing dangles, all is one component; such curves are never taken as exact. */
 Status plan_snaps(const Beads& beads, double tolerance, bool complete,
                   Span<const Approach> approaches, SnapPlan* plan);
-
-/* Whether curves with these unit directions run along each other, either way. */
-bool run_along(const Vec3& a, const Vec3& b);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/snap_order.h ======== */
@@ -7182,6 +7693,27 @@ Status find_scale(Span<const Vec3> points, int* exponent) {
   return {};
 }
 
+Status explain_rounding(const Status& status, Span<const Vec3> positions, double spacing) {
+  constexpr double k_rounding = 1.0 / 4503599627370496.0, k_most = 1.0 / 1024.0;  /* of the spacing */
+  const bool geometric =
+      status.code == Code::zero_length_curve || status.code == Code::duplicate_samples ||
+      status.code == Code::node_mismatch || status.code == Code::tangent_normal ||
+      status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
+      status.code == Code::bad_mesh || status.code == Code::not_positive_definite ||
+      status.code == Code::bad_argument;  /* of flow/: the points span no volume */
+  if (!geometric || spacing == 0.0) return status;
+  double farthest = 0.0;
+  for (const Vec3& p : positions) {
+    const double here = greatest_component(p);
+    farthest = here > farthest ? here : farthest;
+  }
+  if (!(farthest * k_rounding > k_most * spacing)) return status;
+  return fail(status.code,
+              "the network lies so far from the origin that its positions are rounded too "
+              "coarsely: move it to the origin",
+              status.place);
+}
+
 }  /* namespace wireskin::api */
 /* ======== end src/api/input.cpp ======== */
 
@@ -7243,12 +7775,12 @@ Status transpose(const Csc& a, Csc* result) {
 }
 
 Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle triangle,
-                       Pattern* result) {
+                       Pattern* result, bool with_source) {
   Context& context = lower.start.context();
   const uint32_t n = lower.cols;
   TRY(result->start.assign(size_t{n} + 1, 0));
   TRY(result->index.resize(lower.row.size()));
-  TRY(result->source.resize(lower.row.size()));
+  if (with_source) TRY(result->source.resize(lower.row.size()));
   Array<uint32_t> next(context);
   TRY(next.resize(size_t{n} + 1));
   const bool by_smaller = triangle == Triangle::lower;
@@ -7256,7 +7788,8 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
       const uint32_t a = position[lower.row[k]], b = position[j];
-      ++result->start[(a < b) == by_smaller ? a : b];
+      const uint32_t smaller = a < b ? a : b, larger = a < b ? b : a;
+      ++result->start[by_smaller ? smaller : larger];
     }
   }
   starts_from_counts(result->start.span());
@@ -7265,10 +7798,10 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
       const uint32_t a = position[lower.row[k]], b = position[j];
-      const uint32_t column = (a < b) == by_smaller ? a : b;
-      const uint32_t to = next[column]++;
-      result->index[to] = column == a ? b : a;
-      result->source[to] = k;
+      const uint32_t smaller = a < b ? a : b, larger = a < b ? b : a;
+      const uint32_t to = next[by_smaller ? smaller : larger]++;
+      result->index[to] = by_smaller ? larger : smaller;
+      if (with_source) result->source[to] = k;
     }
   }
   return {};
@@ -8179,28 +8712,45 @@ static void find_components(Span<const uint32_t> triangles, Topology* topology) 
   }
 }
 
+namespace {
+
+/* The corners of a vertex: how many there are, at how many of them the surface ends clockwise, and */
+/* the last of those, or one of all where there are none. */
+struct Fan {
+  uint32_t first;
+  uint32_t corners;
+  uint32_t borders;
+};
+
+}  /* namespace */
+
+static void find_fans(Span<const uint32_t> triangles, Span<const uint32_t> twins, Span<Fan> fans) {
+  for (Fan& fan : fans) fan = {0, 0, 0};
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    Fan& fan = fans[triangles[h]];
+    const uint32_t border = twins[h] == k_none;
+    ++fan.corners;
+    fan.borders += border;
+    if (border != 0 || fan.borders == 0) fan.first = h;
+  }
+}
+
 /* Walks round every vertex from one of its corners (at a border vertex: from the border) and */
 /* compares the number of triangles met with those it has. */
-static Status check_fans(Span<const uint32_t> twins, Span<const uint32_t> start,
-                         Span<const uint32_t> corner, Span<uint8_t> on_border) {
-  for (size_t v = 0; v + 1 < start.size(); ++v) {
-    const uint32_t count = start[v + 1] - start[v];
-    if (count == 0) return fail_vertex("the vertex belongs to no triangle", v);
-    uint32_t first = corner[start[v]], borders = 0;
-    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
-      if (twins[corner[k]] != k_none) continue;  /* clockwise of this corner the surface ends */
-      first = corner[k];
-      ++borders;
-    }
-    uint32_t met = 0, h = first;
+static Status check_fans(Span<const uint32_t> twins, Span<const Fan> fans,
+                         Span<uint8_t> on_border) {
+  for (size_t v = 0; v < fans.size(); ++v) {
+    const Fan fan = fans[v];
+    if (fan.corners == 0) return fail_vertex("the vertex belongs to no triangle", v);
+    uint32_t met = 0, h = fan.first;
     do {
       ++met;
       h = twins[previous_half_edge(h)];
-    } while (h != k_none && h != first && met <= count);
-    if (borders > 1 || met != count) {
+    } while (h != k_none && h != fan.first && met <= fan.corners);
+    if (fan.borders > 1 || met != fan.corners) {
       return fail_vertex("the triangles round the vertex do not form one fan", v);
     }
-    on_border[v] = borders == 1;
+    on_border[v] = fan.borders == 1;
   }
   return {};
 }
@@ -8224,11 +8774,12 @@ static Status count_loops(Span<const uint32_t> twins, Context& context, uint32_t
 Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
                      Topology* topology) {
   Context& context = topology->on_border.context();
-  Array<uint32_t> start(context), corner(context);
-  TRY(find_corners(vertices, triangles, &start, &corner));
+  Array<Fan> fans(context);
+  TRY(fans.resize(vertices));
   TRY(topology->on_border.assign(vertices, 0));
   TRY(topology->component.resize(vertices));
-  TRY(check_fans(twins, start.span(), corner.span(), topology->on_border.span()));
+  find_fans(triangles, twins, fans.span());
+  TRY(check_fans(twins, fans.span(), topology->on_border.span()));
   find_components(triangles, topology);
   TRY(count_loops(twins, context, &topology->boundary_loops));
   for (uint32_t h = 0; h < twins.size(); ++h) topology->edges += twins[h] == k_none || h < twins[h];
@@ -8250,15 +8801,22 @@ Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles) {
 double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
   double greatest_cosine = -1.0;
   double angle = 0.0;
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t corner = static_cast<uint32_t>(h);
-    const Vec3& p = positions[triangles[h]];
-    const Vec3 a = positions[triangles[next_half_edge(corner)]] - p;
-    const Vec3 b = positions[triangles[previous_half_edge(corner)]] - p;
-    const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
-    if (!(cosine > greatest_cosine)) continue;
-    greatest_cosine = cosine;
-    angle = angle_between(a, b);
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const Vec3 at[3] = {positions[triangles[t]], positions[triangles[t + 1]],
+                        positions[triangles[t + 2]]};
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = at[k == 2 ? 0 : k + 1] - at[k], b = at[k == 0 ? 2 : k - 1] - at[k];
+      const double product = dot(a, b), squares = dot(a, a) * dot(b, b);
+      /* A cosine that is surely less needs no root. */
+      const double enough = (1.0 - 1e-9) * greatest_cosine * greatest_cosine * squares;
+      if (greatest_cosine > 0.0 && squares > 1e-200 && product * std::fabs(product) < enough) {
+        continue;
+      }
+      const double cosine = product / std::sqrt(squares);
+      if (!(cosine > greatest_cosine)) continue;
+      greatest_cosine = cosine;
+      angle = angle_between(a, b);
+    }
   }
   return angle * (180.0 / k_pi);
 }
@@ -8296,15 +8854,18 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
                           Span<const uint8_t> on_border, Array<double>* curvature) {
   Context& context = curvature->context();
   const size_t n = positions.size();
-  Array<TriangleShape> shapes(context);
   Array<double> area(context);
   TRY(curvature->assign(n, 2.0 * k_pi));
-  TRY(area.resize(n));
-  TRY(triangle_shapes(positions, triangles, &shapes));
-  mixed_voronoi_areas(triangles, shapes.span(), area.span());
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    /* The cotangent of the angle is known: arctan2(1, cot) is the angle. */
-    (*curvature)[triangles[h]] -= arc_tangent(1.0, shapes[h / 3].cotangent[h % 3]);
+  TRY(area.assign(n, 0.0));
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t* v = &triangles[t];
+    const TriangleShape shape = triangle_shape(positions[v[0]], positions[v[1]], positions[v[2]]);
+    const CornerAreas shares = mixed_voronoi_shares(shape);
+    for (int k = 0; k < 3; ++k) {
+      area[v[k]] += shares.at[k];
+      /* The cotangent of the angle is known: arctan2(1, cot) is the angle. */
+      (*curvature)[v[k]] -= arc_tangent(1.0, shape.cotangent[k]);
+    }
   }
   for (size_t v = 0; v < n; ++v) {
     (*curvature)[v] = !on_border[v] && area[v] > 0.0 ? (*curvature)[v] / area[v] : 0.0;
@@ -8394,42 +8955,54 @@ static double mixed_voronoi_share(const TriangleShape& shape, int k) {
   return 0.25 * shape.area * ((here + next) * previous + (here + previous) * next);
 }
 
+CornerAreas mixed_voronoi_shares(const TriangleShape& shape) {
+  return {{mixed_voronoi_share(shape, 0), mixed_voronoi_share(shape, 1),
+           mixed_voronoi_share(shape, 2)}};
+}
+
 void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
                          Span<double> areas) {
   for (double& a : areas) a = 0.0;
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    areas[triangles[h]] += mixed_voronoi_share(shapes[h / 3], static_cast<int>(h % 3));
+  for (size_t t = 0; t < shapes.size(); ++t) {
+    const CornerAreas shares = mixed_voronoi_shares(shapes[t]);
+    for (size_t k = 0; k < 3; ++k) areas[triangles[3 * t + k]] += shares.at[k];
   }
 }
 
 namespace {
 
 /* One column of the matrix while it is being gathered: its rows, in the order in which the */
-/* triangles bring them, wait in the matrix; their sums stand in a dense array. */
+/* triangles bring them, and their sums in a dense array. */
 struct ColumnUnderWay {
   Array<uint32_t> met;  /* of each row: the last column that had it */
   Array<double> sum;    /* of each row */
+  Array<uint32_t> row;
+  uint32_t count = 0;
 
-  explicit ColumnUnderWay(Context& context) : met(context), sum(context) {}
+  explicit ColumnUnderWay(Context& context) : met(context), sum(context), row(context) {}
 };
 
 }  /* namespace */
 
-static void add_to_column(uint32_t v, uint32_t row, double value, ColumnUnderWay* column,
-                          sparse::Csc* matrix) {
-  if (column->met[row] != v) {
-    column->met[row] = v;
-    column->sum[row] = 0.0;
-    matrix->row.push_reserved(row);
-  }
-  column->sum[row] += value;
+/* Every other call meets a new row, so no branch should ask. */
+static void add_to_column(uint32_t v, uint32_t row, double value, ColumnUnderWay* column) {
+  const bool fresh = column->met[row] != v;
+  const double before[2] = {column->sum[row], 0.0};
+  column->met[row] = v;
+  column->row[column->count] = row;
+  column->count += fresh;
+  column->sum[row] = before[fresh] + value;
 }
 
-static void close_column(uint32_t v, const ColumnUnderWay& column, sparse::Csc* matrix) {
-  const size_t first = matrix->start[v];
-  const Span<uint32_t> rows = matrix->row.span().part(first, matrix->row.size() - first);
-  sort(rows, [](uint32_t a, uint32_t b) { return a < b; });
-  for (uint32_t row : rows) matrix->value.push_reserved(column.sum[row]);
+static Status close_column(const ColumnUnderWay& column, sparse::Csc* matrix) {
+  const size_t first = matrix->row.size();
+  TRY(matrix->row.resize(first + column.count));
+  TRY(matrix->value.resize(first + column.count));
+  uint32_t* const row = matrix->row.data() + first;
+  double* const value = matrix->value.data() + first;
+  sort_distinct(column.row.data(), column.count, row);
+  for (uint32_t k = 0; k < column.count; ++k) value[k] = column.sum[row[k]];
+  return {};
 }
 
 Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
@@ -8440,6 +9013,7 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(column.met.assign(vertices, k_none));
   TRY(column.sum.resize(vertices));
+  TRY(column.row.resize(size_t{vertices} + 1));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
   /* Twice the edges and the diagonal, as long as no more than a few edges are on borders. */
@@ -8460,17 +9034,21 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
       TRY(laplacian->row.reserve(room));
       TRY(laplacian->value.reserve(room));
     }
-    add_to_column(v, v, 0.0, &column, laplacian);
+    column.count = 0;
+    add_to_column(v, v, 0.0, &column);
+    double diagonal = 0.0;
     for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
-      const uint32_t h = corner[k], next = next_half_edge(h), previous = previous_half_edge(h);
-      const TriangleShape& shape = shapes[h / 3];
-      const double to_next = 0.5 * shape.cotangent[previous % 3];
-      const double to_previous = 0.5 * shape.cotangent[next % 3];
-      add_to_column(v, triangles[next], to_next, &column, laplacian);
-      add_to_column(v, triangles[previous], to_previous, &column, laplacian);
-      add_to_column(v, v, -to_next - to_previous, &column, laplacian);
+      const uint32_t triangle = corner[k] / 3, own = corner[k] % 3;
+      const uint32_t next = own == 2 ? 0 : own + 1, previous = own == 0 ? 2 : own - 1;
+      const TriangleShape& shape = shapes[triangle];
+      const double to_next = 0.5 * shape.cotangent[previous];
+      const double to_previous = 0.5 * shape.cotangent[next];
+      add_to_column(v, triangles[size_t{3} * triangle + next], to_next, &column);
+      add_to_column(v, triangles[size_t{3} * triangle + previous], to_previous, &column);
+      diagonal += -to_next - to_previous;
     }
-    close_column(v, column, laplacian);
+    column.sum[v] = diagonal;
+    TRY(close_column(column, laplacian));
     if (v % 16384 == 16383) TRY(context.checkpoint());
   }
   laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());
@@ -8556,8 +9134,8 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void store(double* to, V value) {
 }
 
 /* A tile of Vectors x Columns products: small enough for the registers, tall enough to hide the */
-/* latency of the additions. */
-template <typename V, int Vectors, int Columns>
+/* latency of the additions. Shrinks: A and B are columns of trapezoids, in more than one block. */
+template <typename V, int Vectors, int Columns, bool Shrinks>
 WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const double* a, const double* b,
                                                 double* c) {
   constexpr uint32_t k_step = k_lanes<V>;
@@ -8570,16 +9148,23 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const 
       sum[j][v] = u.overwrite ? V{} : load<V>(at);
     }
   }
-  for (uint32_t k = 0; k < u.depth; ++k, a += u.a_step, b += u.b_step) {
-    V left[Vectors];
-    WIRESKIN_UNROLL
-    for (int v = 0; v < Vectors; ++v) left[v] = load<V>(a + static_cast<uint32_t>(v) * k_step);
-    WIRESKIN_UNROLL
-    for (int j = 0; j < Columns; ++j) {
-      const double right = b[static_cast<size_t>(j) * u.b_out];
+  size_t a_step = u.a_step, b_step = u.b_step;
+  for (uint32_t k = 0; k < u.depth;) {
+    const bool whole = !Shrinks || u.depth - k < k_trapezoid_block;
+    const uint32_t end = whole ? u.depth : k + k_trapezoid_block;
+    for (; k < end; ++k, a += a_step, b += b_step) {
+      V left[Vectors];
       WIRESKIN_UNROLL
-      for (int v = 0; v < Vectors; ++v) sum[j][v] = sum[j][v] - left[v] * right;
+      for (int v = 0; v < Vectors; ++v) left[v] = load<V>(a + static_cast<uint32_t>(v) * k_step);
+      WIRESKIN_UNROLL
+      for (int j = 0; j < Columns; ++j) {
+        const double right = b[static_cast<size_t>(j) * u.b_out];
+        WIRESKIN_UNROLL
+        for (int v = 0; v < Vectors; ++v) sum[j][v] = sum[j][v] - left[v] * right;
+      }
     }
+    a -= k_trapezoid_block, b -= k_trapezoid_block;
+    a_step -= k_trapezoid_block, b_step -= k_trapezoid_block;
   }
   WIRESKIN_UNROLL
   for (int j = 0; j < Columns; ++j) {
@@ -8592,45 +9177,57 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const 
 }
 
 /* Up to four columns of products, from row `i` on. */
-template <int Columns>
+template <int Columns, bool Shrinks>
 WIRESKIN_TARGET static void product_strip(const Update& u, uint32_t i, const double* b, double* c) {
 #if WIRESKIN_LANES == 2
-  for (; i < u.rows; i += 4) product_tile<Wide, 2, Columns>(u, u.a + i, b, c + i);
+  for (; i < u.rows; i += 4) product_tile<Wide, 2, Columns, Shrinks>(u, u.a + i, b, c + i);
 #else
   constexpr uint32_t k_step = k_lanes<Wide>;
   for (; i + 3 * k_step <= u.rows; i += 3 * k_step) {
-    product_tile<Wide, 3, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 3, Columns, Shrinks>(u, u.a + i, b, c + i);
   }
   if (i + 2 * k_step <= u.rows) {
-    product_tile<Wide, 2, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 2, Columns, Shrinks>(u, u.a + i, b, c + i);
     i += 2 * k_step;
   } else if (i + k_step <= u.rows) {
-    product_tile<Wide, 1, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 1, Columns, Shrinks>(u, u.a + i, b, c + i);
     i += k_step;
   }
-  if (i < u.rows) product_tile<Narrow, 1, Columns>(u, u.a + i, b, c + i);
+  if (i < u.rows) product_tile<Narrow, 1, Columns, Shrinks>(u, u.a + i, b, c + i);
 #endif
 }
 
+template <bool Shrinks>
 WIRESKIN_TARGET static void product_columns(const Update& u) {
+  Update strip = u;
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t i = u.lower ? j : 0;
     const double* b = u.b + j * u.b_out;
-    double* c = u.c + j * u.c_step;
+    double* c = u.c + u.into_column(j);
+    strip.c_step = Update::step_at(u.c_step, j, u.into_trapezoid);
     switch (u.columns - j) {
       case 1:
-        product_strip<1>(u, i, b, c);
+        product_strip<1, Shrinks>(strip, i, b, c);
         break;
       case 2:
-        product_strip<2>(u, i, b, c);
+        product_strip<2, Shrinks>(strip, i, b, c);
         break;
       case 3:
-        product_strip<3>(u, i, b, c);
+        product_strip<3, Shrinks>(strip, i, b, c);
         break;
       default:
-        product_strip<4>(u, i, b, c);
+        product_strip<4, Shrinks>(strip, i, b, c);
     }
   }
+}
+
+/* From column k of A or B to the next one, `step` away. */
+static WIRESKIN_INLINE const double* next_column(const Update& u, uint32_t k, const double* at,
+                                                 size_t* step) {
+  at += *step;
+  if (!u.from_trapezoid || (k + 1) % k_trapezoid_block != 0) return at;
+  *step -= k_trapezoid_block;
+  return at - k_trapezoid_block;
 }
 
 /* Copies `depth` columns of `rows` numbers into bands of k_tall rows, each contiguous. */
@@ -8639,8 +9236,10 @@ WIRESKIN_TARGET static void pack_bands(const Update& u, uint32_t first, uint32_t
   for (uint32_t i = 0; i < rows; i += k_tall) {
     const double* from = u.a + first + i;
     const uint32_t height = rows - i < k_tall ? rows - i : k_tall;
-    for (uint32_t k = 0; k < u.depth; ++k, from += u.a_step, to += height) {
+    size_t step = u.a_step;
+    for (uint32_t k = 0; k < u.depth; ++k, to += height) {
       for (uint32_t r = 0; r < height; r += 4) std::memcpy(to + r, from + r, 4 * sizeof(double));
+      from = next_column(u, k, from, &step);
     }
   }
 }
@@ -8649,8 +9248,10 @@ static void pack_columns(const Update& u, double* to) {
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t count = u.columns - j < 4 ? u.columns - j : 4;
     const double* from = u.b + j * u.b_out;
-    for (uint32_t k = 0; k < u.depth; ++k, from += u.b_step, to += count) {
+    size_t step = u.b_step;
+    for (uint32_t k = 0; k < u.depth; ++k, to += count) {
       for (uint32_t c = 0; c < count; ++c) to[c] = from[c * u.b_out];
+      from = next_column(u, k, from, &step);
     }
   }
 }
@@ -8661,23 +9262,25 @@ WIRESKIN_TARGET static void product_packed(const Update& u, uint32_t first, uint
   constexpr uint32_t k_tall = WIRESKIN_LANES == 2 ? 4 : 3 * k_lanes<Wide>;
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t count = u.columns - j < 4 ? u.columns - j : 4;
-    uint32_t i = u.lower && j > first ? (j - first) / k_tall * k_tall : 0;
-    for (; i < rows; i += k_tall) {
+    const uint32_t top = u.lower && j > first ? j - first : 0;
+    Update part = u;
+    part.columns = count;
+    part.b = strips + size_t{j} * u.depth;
+    part.b_out = 1;
+    part.b_step = count;
+    part.c_step = Update::step_at(u.c_step, j, u.into_trapezoid);
+    part.lower = part.from_trapezoid = part.into_trapezoid = false;
+    for (uint32_t i = top / k_tall * k_tall; i < rows; i += k_tall) {
       const uint32_t height = rows - i < k_tall ? rows - i : k_tall;
-      Update part = u;
-      part.rows = height;
-      part.columns = count;
-      part.a = bands + size_t{i} * u.depth;
+      const uint32_t above = top > i ? top - i : 0;
+      part.rows = height - above;
+      part.a = bands + size_t{i} * u.depth + above;
       part.a_step = height;
-      part.b = strips + size_t{j} * u.depth;
-      part.b_out = 1;
-      part.b_step = count;
-      part.c = u.c + j * u.c_step + first + i;
-      part.lower = false;
+      part.c = u.c + u.into_column(j) + first + i + above;
       if (count == 4) {
-        product_strip<4>(part, 0, part.b, part.c);
+        product_strip<4, false>(part, 0, part.b, part.c);
       } else {
-        product_columns(part);
+        product_columns<false>(part);
       }
     }
   }
@@ -8685,7 +9288,11 @@ WIRESKIN_TARGET static void product_packed(const Update& u, uint32_t first, uint
 
 WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
   if (whole.depth <= 24 || whole.rows < 96) {
-    product_columns(whole);
+    if (whole.from_trapezoid && whole.depth > k_trapezoid_block) {
+      product_columns<true>(whole);
+    } else {
+      product_columns<false>(whole);
+    }
     return;
   }
   for (uint32_t j = 0; j < whole.columns; j += k_block_columns) {
@@ -8695,9 +9302,12 @@ WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
       u.rows -= top;
       u.columns = whole.columns - j < k_block_columns ? whole.columns - j : k_block_columns;
       u.depth = whole.depth - k < k_block_depth ? whole.depth - k : k_block_depth;
-      u.a += top + k * u.a_step;
-      u.b += j * u.b_out + k * u.b_step;
-      u.c += top + j * u.c_step;
+      u.a += top + whole.from_column(whole.a_step, k);
+      u.b += j * u.b_out + whole.from_column(whole.b_step, k);
+      u.c += top + whole.into_column(j);
+      u.a_step = Update::step_at(whole.a_step, k, whole.from_trapezoid);
+      u.b_step = Update::step_at(whole.b_step, k, whole.from_trapezoid);
+      u.c_step = Update::step_at(whole.c_step, j, whole.into_trapezoid);
       u.overwrite = whole.overwrite && k == 0;
       double* bands = scratch + k_block_columns * k_block_depth;
       pack_columns(u, scratch);
@@ -8821,10 +9431,22 @@ WIRESKIN_TARGET static void solve_block(const DiagonalBlock& d, uint32_t rows, d
 
 WIRESKIN_TARGET static WIRESKIN_INLINE void add_run(double* to, const double* from, uint32_t length) {
   uint32_t i = 0;
-  for (; i + k_lanes<Narrow> <= length; i += k_lanes<Narrow>) {
-    store<Narrow>(to + i, load<Narrow>(to + i) + load<Narrow>(from + i));
+  for (; i + k_lanes<Wide> <= length; i += k_lanes<Wide>) {
+    store<Wide>(to + i, load<Wide>(to + i) + load<Wide>(from + i));
   }
-  for (; i < length; ++i) to[i] += from[i];
+#if WIRESKIN_LANES == 8
+  if ((length & 4) != 0) {
+    store<Quad>(to + i, load<Quad>(to + i) + load<Quad>(from + i));
+    i += 4;
+  }
+#endif
+#if WIRESKIN_LANES > 2
+  if ((length & 2) != 0) {
+    store<Pair>(to + i, load<Pair>(to + i) + load<Pair>(from + i));
+    i += 2;
+  }
+#endif
+  if ((length & 1) != 0) to[i] += from[i];
 }
 
 WIRESKIN_TARGET static void add_runs(const Run* run, const Run* end, uint32_t k,
@@ -8875,8 +9497,8 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void store(double* to, V value) {
 }
 
 /* A tile of Vectors x Columns products: small enough for the registers, tall enough to hide the */
-/* latency of the additions. */
-template <typename V, int Vectors, int Columns>
+/* latency of the additions. Shrinks: A and B are columns of trapezoids, in more than one block. */
+template <typename V, int Vectors, int Columns, bool Shrinks>
 WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const double* a, const double* b,
                                                 double* c) {
   constexpr uint32_t k_step = k_lanes<V>;
@@ -8889,16 +9511,23 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const 
       sum[j][v] = u.overwrite ? V{} : load<V>(at);
     }
   }
-  for (uint32_t k = 0; k < u.depth; ++k, a += u.a_step, b += u.b_step) {
-    V left[Vectors];
-    WIRESKIN_UNROLL
-    for (int v = 0; v < Vectors; ++v) left[v] = load<V>(a + static_cast<uint32_t>(v) * k_step);
-    WIRESKIN_UNROLL
-    for (int j = 0; j < Columns; ++j) {
-      const double right = b[static_cast<size_t>(j) * u.b_out];
+  size_t a_step = u.a_step, b_step = u.b_step;
+  for (uint32_t k = 0; k < u.depth;) {
+    const bool whole = !Shrinks || u.depth - k < k_trapezoid_block;
+    const uint32_t end = whole ? u.depth : k + k_trapezoid_block;
+    for (; k < end; ++k, a += a_step, b += b_step) {
+      V left[Vectors];
       WIRESKIN_UNROLL
-      for (int v = 0; v < Vectors; ++v) sum[j][v] = sum[j][v] - left[v] * right;
+      for (int v = 0; v < Vectors; ++v) left[v] = load<V>(a + static_cast<uint32_t>(v) * k_step);
+      WIRESKIN_UNROLL
+      for (int j = 0; j < Columns; ++j) {
+        const double right = b[static_cast<size_t>(j) * u.b_out];
+        WIRESKIN_UNROLL
+        for (int v = 0; v < Vectors; ++v) sum[j][v] = sum[j][v] - left[v] * right;
+      }
     }
+    a -= k_trapezoid_block, b -= k_trapezoid_block;
+    a_step -= k_trapezoid_block, b_step -= k_trapezoid_block;
   }
   WIRESKIN_UNROLL
   for (int j = 0; j < Columns; ++j) {
@@ -8911,45 +9540,57 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const 
 }
 
 /* Up to four columns of products, from row `i` on. */
-template <int Columns>
+template <int Columns, bool Shrinks>
 WIRESKIN_TARGET static void product_strip(const Update& u, uint32_t i, const double* b, double* c) {
 #if WIRESKIN_LANES == 2
-  for (; i < u.rows; i += 4) product_tile<Wide, 2, Columns>(u, u.a + i, b, c + i);
+  for (; i < u.rows; i += 4) product_tile<Wide, 2, Columns, Shrinks>(u, u.a + i, b, c + i);
 #else
   constexpr uint32_t k_step = k_lanes<Wide>;
   for (; i + 3 * k_step <= u.rows; i += 3 * k_step) {
-    product_tile<Wide, 3, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 3, Columns, Shrinks>(u, u.a + i, b, c + i);
   }
   if (i + 2 * k_step <= u.rows) {
-    product_tile<Wide, 2, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 2, Columns, Shrinks>(u, u.a + i, b, c + i);
     i += 2 * k_step;
   } else if (i + k_step <= u.rows) {
-    product_tile<Wide, 1, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 1, Columns, Shrinks>(u, u.a + i, b, c + i);
     i += k_step;
   }
-  if (i < u.rows) product_tile<Narrow, 1, Columns>(u, u.a + i, b, c + i);
+  if (i < u.rows) product_tile<Narrow, 1, Columns, Shrinks>(u, u.a + i, b, c + i);
 #endif
 }
 
+template <bool Shrinks>
 WIRESKIN_TARGET static void product_columns(const Update& u) {
+  Update strip = u;
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t i = u.lower ? j : 0;
     const double* b = u.b + j * u.b_out;
-    double* c = u.c + j * u.c_step;
+    double* c = u.c + u.into_column(j);
+    strip.c_step = Update::step_at(u.c_step, j, u.into_trapezoid);
     switch (u.columns - j) {
       case 1:
-        product_strip<1>(u, i, b, c);
+        product_strip<1, Shrinks>(strip, i, b, c);
         break;
       case 2:
-        product_strip<2>(u, i, b, c);
+        product_strip<2, Shrinks>(strip, i, b, c);
         break;
       case 3:
-        product_strip<3>(u, i, b, c);
+        product_strip<3, Shrinks>(strip, i, b, c);
         break;
       default:
-        product_strip<4>(u, i, b, c);
+        product_strip<4, Shrinks>(strip, i, b, c);
     }
   }
+}
+
+/* From column k of A or B to the next one, `step` away. */
+static WIRESKIN_INLINE const double* next_column(const Update& u, uint32_t k, const double* at,
+                                                 size_t* step) {
+  at += *step;
+  if (!u.from_trapezoid || (k + 1) % k_trapezoid_block != 0) return at;
+  *step -= k_trapezoid_block;
+  return at - k_trapezoid_block;
 }
 
 /* Copies `depth` columns of `rows` numbers into bands of k_tall rows, each contiguous. */
@@ -8958,8 +9599,10 @@ WIRESKIN_TARGET static void pack_bands(const Update& u, uint32_t first, uint32_t
   for (uint32_t i = 0; i < rows; i += k_tall) {
     const double* from = u.a + first + i;
     const uint32_t height = rows - i < k_tall ? rows - i : k_tall;
-    for (uint32_t k = 0; k < u.depth; ++k, from += u.a_step, to += height) {
+    size_t step = u.a_step;
+    for (uint32_t k = 0; k < u.depth; ++k, to += height) {
       for (uint32_t r = 0; r < height; r += 4) std::memcpy(to + r, from + r, 4 * sizeof(double));
+      from = next_column(u, k, from, &step);
     }
   }
 }
@@ -8968,8 +9611,10 @@ static void pack_columns(const Update& u, double* to) {
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t count = u.columns - j < 4 ? u.columns - j : 4;
     const double* from = u.b + j * u.b_out;
-    for (uint32_t k = 0; k < u.depth; ++k, from += u.b_step, to += count) {
+    size_t step = u.b_step;
+    for (uint32_t k = 0; k < u.depth; ++k, to += count) {
       for (uint32_t c = 0; c < count; ++c) to[c] = from[c * u.b_out];
+      from = next_column(u, k, from, &step);
     }
   }
 }
@@ -8980,23 +9625,25 @@ WIRESKIN_TARGET static void product_packed(const Update& u, uint32_t first, uint
   constexpr uint32_t k_tall = WIRESKIN_LANES == 2 ? 4 : 3 * k_lanes<Wide>;
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t count = u.columns - j < 4 ? u.columns - j : 4;
-    uint32_t i = u.lower && j > first ? (j - first) / k_tall * k_tall : 0;
-    for (; i < rows; i += k_tall) {
+    const uint32_t top = u.lower && j > first ? j - first : 0;
+    Update part = u;
+    part.columns = count;
+    part.b = strips + size_t{j} * u.depth;
+    part.b_out = 1;
+    part.b_step = count;
+    part.c_step = Update::step_at(u.c_step, j, u.into_trapezoid);
+    part.lower = part.from_trapezoid = part.into_trapezoid = false;
+    for (uint32_t i = top / k_tall * k_tall; i < rows; i += k_tall) {
       const uint32_t height = rows - i < k_tall ? rows - i : k_tall;
-      Update part = u;
-      part.rows = height;
-      part.columns = count;
-      part.a = bands + size_t{i} * u.depth;
+      const uint32_t above = top > i ? top - i : 0;
+      part.rows = height - above;
+      part.a = bands + size_t{i} * u.depth + above;
       part.a_step = height;
-      part.b = strips + size_t{j} * u.depth;
-      part.b_out = 1;
-      part.b_step = count;
-      part.c = u.c + j * u.c_step + first + i;
-      part.lower = false;
+      part.c = u.c + u.into_column(j) + first + i + above;
       if (count == 4) {
-        product_strip<4>(part, 0, part.b, part.c);
+        product_strip<4, false>(part, 0, part.b, part.c);
       } else {
-        product_columns(part);
+        product_columns<false>(part);
       }
     }
   }
@@ -9004,7 +9651,11 @@ WIRESKIN_TARGET static void product_packed(const Update& u, uint32_t first, uint
 
 WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
   if (whole.depth <= 24 || whole.rows < 96) {
-    product_columns(whole);
+    if (whole.from_trapezoid && whole.depth > k_trapezoid_block) {
+      product_columns<true>(whole);
+    } else {
+      product_columns<false>(whole);
+    }
     return;
   }
   for (uint32_t j = 0; j < whole.columns; j += k_block_columns) {
@@ -9014,9 +9665,12 @@ WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
       u.rows -= top;
       u.columns = whole.columns - j < k_block_columns ? whole.columns - j : k_block_columns;
       u.depth = whole.depth - k < k_block_depth ? whole.depth - k : k_block_depth;
-      u.a += top + k * u.a_step;
-      u.b += j * u.b_out + k * u.b_step;
-      u.c += top + j * u.c_step;
+      u.a += top + whole.from_column(whole.a_step, k);
+      u.b += j * u.b_out + whole.from_column(whole.b_step, k);
+      u.c += top + whole.into_column(j);
+      u.a_step = Update::step_at(whole.a_step, k, whole.from_trapezoid);
+      u.b_step = Update::step_at(whole.b_step, k, whole.from_trapezoid);
+      u.c_step = Update::step_at(whole.c_step, j, whole.into_trapezoid);
       u.overwrite = whole.overwrite && k == 0;
       double* bands = scratch + k_block_columns * k_block_depth;
       pack_columns(u, scratch);
@@ -9140,10 +9794,22 @@ WIRESKIN_TARGET static void solve_block(const DiagonalBlock& d, uint32_t rows, d
 
 WIRESKIN_TARGET static WIRESKIN_INLINE void add_run(double* to, const double* from, uint32_t length) {
   uint32_t i = 0;
-  for (; i + k_lanes<Narrow> <= length; i += k_lanes<Narrow>) {
-    store<Narrow>(to + i, load<Narrow>(to + i) + load<Narrow>(from + i));
+  for (; i + k_lanes<Wide> <= length; i += k_lanes<Wide>) {
+    store<Wide>(to + i, load<Wide>(to + i) + load<Wide>(from + i));
   }
-  for (; i < length; ++i) to[i] += from[i];
+#if WIRESKIN_LANES == 8
+  if ((length & 4) != 0) {
+    store<Quad>(to + i, load<Quad>(to + i) + load<Quad>(from + i));
+    i += 4;
+  }
+#endif
+#if WIRESKIN_LANES > 2
+  if ((length & 2) != 0) {
+    store<Pair>(to + i, load<Pair>(to + i) + load<Pair>(from + i));
+    i += 2;
+  }
+#endif
+  if ((length & 1) != 0) to[i] += from[i];
 }
 
 WIRESKIN_TARGET static void add_runs(const Run* run, const Run* end, uint32_t k,
@@ -9193,8 +9859,8 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void store(double* to, V value) {
 }
 
 /* A tile of Vectors x Columns products: small enough for the registers, tall enough to hide the */
-/* latency of the additions. */
-template <typename V, int Vectors, int Columns>
+/* latency of the additions. Shrinks: A and B are columns of trapezoids, in more than one block. */
+template <typename V, int Vectors, int Columns, bool Shrinks>
 WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const double* a, const double* b,
                                                 double* c) {
   constexpr uint32_t k_step = k_lanes<V>;
@@ -9207,16 +9873,23 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const 
       sum[j][v] = u.overwrite ? V{} : load<V>(at);
     }
   }
-  for (uint32_t k = 0; k < u.depth; ++k, a += u.a_step, b += u.b_step) {
-    V left[Vectors];
-    WIRESKIN_UNROLL
-    for (int v = 0; v < Vectors; ++v) left[v] = load<V>(a + static_cast<uint32_t>(v) * k_step);
-    WIRESKIN_UNROLL
-    for (int j = 0; j < Columns; ++j) {
-      const double right = b[static_cast<size_t>(j) * u.b_out];
+  size_t a_step = u.a_step, b_step = u.b_step;
+  for (uint32_t k = 0; k < u.depth;) {
+    const bool whole = !Shrinks || u.depth - k < k_trapezoid_block;
+    const uint32_t end = whole ? u.depth : k + k_trapezoid_block;
+    for (; k < end; ++k, a += a_step, b += b_step) {
+      V left[Vectors];
       WIRESKIN_UNROLL
-      for (int v = 0; v < Vectors; ++v) sum[j][v] = sum[j][v] - left[v] * right;
+      for (int v = 0; v < Vectors; ++v) left[v] = load<V>(a + static_cast<uint32_t>(v) * k_step);
+      WIRESKIN_UNROLL
+      for (int j = 0; j < Columns; ++j) {
+        const double right = b[static_cast<size_t>(j) * u.b_out];
+        WIRESKIN_UNROLL
+        for (int v = 0; v < Vectors; ++v) sum[j][v] = sum[j][v] - left[v] * right;
+      }
     }
+    a -= k_trapezoid_block, b -= k_trapezoid_block;
+    a_step -= k_trapezoid_block, b_step -= k_trapezoid_block;
   }
   WIRESKIN_UNROLL
   for (int j = 0; j < Columns; ++j) {
@@ -9229,45 +9902,57 @@ WIRESKIN_TARGET static WIRESKIN_INLINE void product_tile(const Update& u, const 
 }
 
 /* Up to four columns of products, from row `i` on. */
-template <int Columns>
+template <int Columns, bool Shrinks>
 WIRESKIN_TARGET static void product_strip(const Update& u, uint32_t i, const double* b, double* c) {
 #if WIRESKIN_LANES == 2
-  for (; i < u.rows; i += 4) product_tile<Wide, 2, Columns>(u, u.a + i, b, c + i);
+  for (; i < u.rows; i += 4) product_tile<Wide, 2, Columns, Shrinks>(u, u.a + i, b, c + i);
 #else
   constexpr uint32_t k_step = k_lanes<Wide>;
   for (; i + 3 * k_step <= u.rows; i += 3 * k_step) {
-    product_tile<Wide, 3, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 3, Columns, Shrinks>(u, u.a + i, b, c + i);
   }
   if (i + 2 * k_step <= u.rows) {
-    product_tile<Wide, 2, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 2, Columns, Shrinks>(u, u.a + i, b, c + i);
     i += 2 * k_step;
   } else if (i + k_step <= u.rows) {
-    product_tile<Wide, 1, Columns>(u, u.a + i, b, c + i);
+    product_tile<Wide, 1, Columns, Shrinks>(u, u.a + i, b, c + i);
     i += k_step;
   }
-  if (i < u.rows) product_tile<Narrow, 1, Columns>(u, u.a + i, b, c + i);
+  if (i < u.rows) product_tile<Narrow, 1, Columns, Shrinks>(u, u.a + i, b, c + i);
 #endif
 }
 
+template <bool Shrinks>
 WIRESKIN_TARGET static void product_columns(const Update& u) {
+  Update strip = u;
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t i = u.lower ? j : 0;
     const double* b = u.b + j * u.b_out;
-    double* c = u.c + j * u.c_step;
+    double* c = u.c + u.into_column(j);
+    strip.c_step = Update::step_at(u.c_step, j, u.into_trapezoid);
     switch (u.columns - j) {
       case 1:
-        product_strip<1>(u, i, b, c);
+        product_strip<1, Shrinks>(strip, i, b, c);
         break;
       case 2:
-        product_strip<2>(u, i, b, c);
+        product_strip<2, Shrinks>(strip, i, b, c);
         break;
       case 3:
-        product_strip<3>(u, i, b, c);
+        product_strip<3, Shrinks>(strip, i, b, c);
         break;
       default:
-        product_strip<4>(u, i, b, c);
+        product_strip<4, Shrinks>(strip, i, b, c);
     }
   }
+}
+
+/* From column k of A or B to the next one, `step` away. */
+static WIRESKIN_INLINE const double* next_column(const Update& u, uint32_t k, const double* at,
+                                                 size_t* step) {
+  at += *step;
+  if (!u.from_trapezoid || (k + 1) % k_trapezoid_block != 0) return at;
+  *step -= k_trapezoid_block;
+  return at - k_trapezoid_block;
 }
 
 /* Copies `depth` columns of `rows` numbers into bands of k_tall rows, each contiguous. */
@@ -9276,8 +9961,10 @@ WIRESKIN_TARGET static void pack_bands(const Update& u, uint32_t first, uint32_t
   for (uint32_t i = 0; i < rows; i += k_tall) {
     const double* from = u.a + first + i;
     const uint32_t height = rows - i < k_tall ? rows - i : k_tall;
-    for (uint32_t k = 0; k < u.depth; ++k, from += u.a_step, to += height) {
+    size_t step = u.a_step;
+    for (uint32_t k = 0; k < u.depth; ++k, to += height) {
       for (uint32_t r = 0; r < height; r += 4) std::memcpy(to + r, from + r, 4 * sizeof(double));
+      from = next_column(u, k, from, &step);
     }
   }
 }
@@ -9286,8 +9973,10 @@ static void pack_columns(const Update& u, double* to) {
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t count = u.columns - j < 4 ? u.columns - j : 4;
     const double* from = u.b + j * u.b_out;
-    for (uint32_t k = 0; k < u.depth; ++k, from += u.b_step, to += count) {
+    size_t step = u.b_step;
+    for (uint32_t k = 0; k < u.depth; ++k, to += count) {
       for (uint32_t c = 0; c < count; ++c) to[c] = from[c * u.b_out];
+      from = next_column(u, k, from, &step);
     }
   }
 }
@@ -9298,23 +9987,25 @@ WIRESKIN_TARGET static void product_packed(const Update& u, uint32_t first, uint
   constexpr uint32_t k_tall = WIRESKIN_LANES == 2 ? 4 : 3 * k_lanes<Wide>;
   for (uint32_t j = 0; j < u.columns; j += 4) {
     const uint32_t count = u.columns - j < 4 ? u.columns - j : 4;
-    uint32_t i = u.lower && j > first ? (j - first) / k_tall * k_tall : 0;
-    for (; i < rows; i += k_tall) {
+    const uint32_t top = u.lower && j > first ? j - first : 0;
+    Update part = u;
+    part.columns = count;
+    part.b = strips + size_t{j} * u.depth;
+    part.b_out = 1;
+    part.b_step = count;
+    part.c_step = Update::step_at(u.c_step, j, u.into_trapezoid);
+    part.lower = part.from_trapezoid = part.into_trapezoid = false;
+    for (uint32_t i = top / k_tall * k_tall; i < rows; i += k_tall) {
       const uint32_t height = rows - i < k_tall ? rows - i : k_tall;
-      Update part = u;
-      part.rows = height;
-      part.columns = count;
-      part.a = bands + size_t{i} * u.depth;
+      const uint32_t above = top > i ? top - i : 0;
+      part.rows = height - above;
+      part.a = bands + size_t{i} * u.depth + above;
       part.a_step = height;
-      part.b = strips + size_t{j} * u.depth;
-      part.b_out = 1;
-      part.b_step = count;
-      part.c = u.c + j * u.c_step + first + i;
-      part.lower = false;
+      part.c = u.c + u.into_column(j) + first + i + above;
       if (count == 4) {
-        product_strip<4>(part, 0, part.b, part.c);
+        product_strip<4, false>(part, 0, part.b, part.c);
       } else {
-        product_columns(part);
+        product_columns<false>(part);
       }
     }
   }
@@ -9322,7 +10013,11 @@ WIRESKIN_TARGET static void product_packed(const Update& u, uint32_t first, uint
 
 WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
   if (whole.depth <= 24 || whole.rows < 96) {
-    product_columns(whole);
+    if (whole.from_trapezoid && whole.depth > k_trapezoid_block) {
+      product_columns<true>(whole);
+    } else {
+      product_columns<false>(whole);
+    }
     return;
   }
   for (uint32_t j = 0; j < whole.columns; j += k_block_columns) {
@@ -9332,9 +10027,12 @@ WIRESKIN_TARGET static void update(const Update& whole, double* scratch) {
       u.rows -= top;
       u.columns = whole.columns - j < k_block_columns ? whole.columns - j : k_block_columns;
       u.depth = whole.depth - k < k_block_depth ? whole.depth - k : k_block_depth;
-      u.a += top + k * u.a_step;
-      u.b += j * u.b_out + k * u.b_step;
-      u.c += top + j * u.c_step;
+      u.a += top + whole.from_column(whole.a_step, k);
+      u.b += j * u.b_out + whole.from_column(whole.b_step, k);
+      u.c += top + whole.into_column(j);
+      u.a_step = Update::step_at(whole.a_step, k, whole.from_trapezoid);
+      u.b_step = Update::step_at(whole.b_step, k, whole.from_trapezoid);
+      u.c_step = Update::step_at(whole.c_step, j, whole.into_trapezoid);
       u.overwrite = whole.overwrite && k == 0;
       double* bands = scratch + k_block_columns * k_block_depth;
       pack_columns(u, scratch);
@@ -9458,10 +10156,22 @@ WIRESKIN_TARGET static void solve_block(const DiagonalBlock& d, uint32_t rows, d
 
 WIRESKIN_TARGET static WIRESKIN_INLINE void add_run(double* to, const double* from, uint32_t length) {
   uint32_t i = 0;
-  for (; i + k_lanes<Narrow> <= length; i += k_lanes<Narrow>) {
-    store<Narrow>(to + i, load<Narrow>(to + i) + load<Narrow>(from + i));
+  for (; i + k_lanes<Wide> <= length; i += k_lanes<Wide>) {
+    store<Wide>(to + i, load<Wide>(to + i) + load<Wide>(from + i));
   }
-  for (; i < length; ++i) to[i] += from[i];
+#if WIRESKIN_LANES == 8
+  if ((length & 4) != 0) {
+    store<Quad>(to + i, load<Quad>(to + i) + load<Quad>(from + i));
+    i += 4;
+  }
+#endif
+#if WIRESKIN_LANES > 2
+  if ((length & 2) != 0) {
+    store<Pair>(to + i, load<Pair>(to + i) + load<Pair>(from + i));
+    i += 2;
+  }
+#endif
+  if ((length & 1) != 0) to[i] += from[i];
 }
 
 WIRESKIN_TARGET static void add_runs(const Run* run, const Run* end, uint32_t k,
@@ -9610,7 +10320,7 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
     result->panel[s] = static_cast<uint32_t>(values);
     const uint32_t height = block.width + block.tail;
     rows += height;
-    values += uint64_t{round_up_rows(height)} * block.width + k_panel_margin;
+    values += trapezoid_size(round_up_rows(height), block.width) + k_panel_margin;
     if (rows >= k_none || values >= k_none) {
       return fail(Code::too_large, "the factor is too large for 32-bit indices");
     }
@@ -9622,42 +10332,73 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
   return {};
 }
 
+namespace {
+
 /* What the row lists are collected with: supernodes whose rows continue in the same supernode are */
-/* linked, and mark[i] == s + 1 means that row i is listed in supernode s. */
+/* linked, and the rows under way are a set of bits. Bit w of `words` says that word w is not zero. */
 struct RowCollector {
   Array<uint32_t> child;  /* of each supernode */
   Array<uint32_t> sibling;
-  Array<uint32_t> mark;
+  Array<uint64_t> bits;
+  Array<uint64_t> words;
+  uint32_t last = 0;  /* no row of the set comes after it */
 
-  explicit RowCollector(Context& c) : child(c), sibling(c), mark(c) {}
+  explicit RowCollector(Context& c) : child(c), sibling(c), bits(c), words(c) {}
+
+  void add(uint32_t row) {
+    bits[row / 64] |= uint64_t{1} << row % 64;
+    words[row / 4096] |= uint64_t{1} << row / 64 % 64;
+    last = row > last ? row : last;
+  }
 };
 
-static void collect_row(RowCollector* rows, uint32_t s, uint32_t i, Supernodes* result,
-                        uint32_t* end) {
-  if (i < result->first[s + 1] || rows->mark[i] == s + 1) return;
-  rows->mark[i] = s + 1;
-  WIRESKIN_ASSERT(*end < result->row_start[s + 1]);
-  result->row[(*end)++] = i;
+}  /* namespace */
+
+/* The lowest bit that is set; there is one. */
+static uint32_t lowest_bit(uint64_t word) {
+#if defined(__GNUC__) && SIZE_MAX > 0xffffffff
+  return static_cast<uint32_t>(__builtin_ctzll(word));
+#else
+  uint32_t bit = 0;
+  for (uint32_t half = 32; half > 0; half /= 2) {
+    if ((word & ((uint64_t{1} << half) - 1)) != 0) continue;
+    word >>= half;
+    bit += half;
+  }
+  return bit;
+#endif
+}
+
+/* Writes the rows of the set, none of which is less than `first`, and empties it. */
+static uint32_t* take_rows(uint32_t first, RowCollector* rows, uint32_t* to) {
+  for (uint32_t group = first / 4096; group <= rows->last / 4096; ++group) {
+    for (; rows->words[group] != 0; rows->words[group] &= rows->words[group] - 1) {
+      const uint32_t word = 64 * group + lowest_bit(rows->words[group]);
+      uint64_t bits = rows->bits[word];
+      rows->bits[word] = 0;
+      for (; bits != 0; bits &= bits - 1) *to++ = 64 * word + lowest_bit(bits);
+    }
+  }
+  rows->last = 0;
+  return to;
 }
 
 /* Rows come from the matrix and from the children, and from nowhere else. */
 static void list_rows(const Pattern& lower, uint32_t s, RowCollector* rows, Supernodes* result) {
-  uint32_t end = result->row_start[s];
-  for (uint32_t j = result->first[s]; j < result->first[s + 1]; ++j) result->row[end++] = j;
-  const uint32_t tail = end;
-  for (uint32_t j = result->first[s]; j < result->first[s + 1]; ++j) {
-    for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
-      collect_row(rows, s, lower.index[k], result, &end);
-    }
+  const uint32_t first = result->first[s], after = result->first[s + 1];
+  for (uint32_t j = first; j < after; ++j) {
+    rows->add(j);
+    for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) rows->add(lower.index[k]);
   }
   for (uint32_t c = rows->child[s]; c != k_none; c = rows->sibling[c]) {
-    for (uint32_t k = result->row_start[c]; k < result->row_start[c + 1]; ++k) {
-      collect_row(rows, s, result->row[k], result, &end);
+    for (uint32_t k = result->row_start[c] + result->width(c); k < result->row_start[c + 1]; ++k) {
+      rows->add(result->row[k]);
     }
   }
-  WIRESKIN_ASSERT(end == result->row_start[s + 1]);
-  sort(result->row.span().part(tail, end - tail), [](uint32_t a, uint32_t b) { return a < b; });
-  if (tail == end) return;
+  const uint32_t* end = take_rows(first, rows, result->row.data() + result->row_start[s]);
+  const uint32_t tail = result->row_start[s] + (after - first);
+  WIRESKIN_ASSERT(end == result->row.data() + result->row_start[s + 1]);
+  if (result->row.data() + tail == end) return;
   const uint32_t above = result->of_column[result->row[tail]];
   rows->sibling[s] = rows->child[above];
   rows->child[above] = s;
@@ -9679,7 +10420,8 @@ Status find_supernodes(const Pattern& lower, Span<const uint32_t> parent,
   RowCollector rows(context);
   TRY(rows.child.assign(result->count, k_none));
   TRY(rows.sibling.assign(result->count, k_none));
-  TRY(rows.mark.assign(parent.size(), 0));
+  TRY(rows.bits.assign(parent.size() / 64 + 1, 0));
+  TRY(rows.words.assign(parent.size() / 4096 + 1, 0));
   uint32_t checked = 0;
   for (uint32_t s = 0; s < result->count; ++s) {
     list_rows(lower, s, &rows, result);
@@ -9977,23 +10719,22 @@ static void update_columns(const PanelTools& tools, const Panel& panel, uint32_t
                            uint32_t column, uint32_t columns, uint32_t first, uint32_t end,
                            double* scratch) {
   if (column == from_column) return;
-  const size_t step = panel.step();
-  const double* from = panel.value + from_column * step;
-  tools.kernels->update(
-      {end - first, columns, column - from_column, from + first, step, from + column, 1, step,
-       panel.value + column * step + first, step, first == column, false},
-      scratch);
+  const size_t step = panel.step(from_column);
+  tools.kernels->update({end - first, columns, column - from_column, panel.at(first, from_column),
+                         step, panel.at(column, from_column), 1, step, panel.at(first, column),
+                         panel.step(column), first == column, false, true, true},
+                        scratch);
 }
 
 /* Factors the block's columns in the rows from the block's first on down to `end`. */
 static uint32_t factor_block(const PanelTools& tools, const Panel& panel, uint32_t end,
                              ColumnBlock* block) {
-  const size_t step = panel.step();
   for (uint32_t j = 0; j < block->count; j += DiagonalBlock::k_size) {
     DiagonalBlock* d = &block->diagonal[j / DiagonalBlock::k_size];
     d->columns = columns_of_diagonal(*block, j);
     const uint32_t column = block->first + j;
-    double* at = panel.value + column * step + column;
+    const size_t step = panel.step(column);
+    double* at = panel.at(column, column);
     update_columns(tools, panel, block->first, column, d->columns, column, end, tools.scratch);
     const uint32_t bad = factor_diagonal(at, step, d);
     if (bad != k_none) return column + bad;
@@ -10009,13 +10750,12 @@ static uint32_t factor_block(const PanelTools& tools, const Panel& panel, uint32
 static void solve_rows_below(const PanelParts& parts, uint32_t first, uint32_t end,
                              double* scratch) {
   const ColumnBlock& block = *parts.block;
-  const size_t step = parts.panel->step();
   for (uint32_t j = 0; j < block.count; j += DiagonalBlock::k_size) {
     const DiagonalBlock& d = block.diagonal[j / DiagonalBlock::k_size];
     const uint32_t column = block.first + j;
     update_columns(*parts.tools, *parts.panel, block.first, column, d.columns, first, end, scratch);
-    parts.tools->kernels->solve_block(d, end - first, parts.panel->value + column * step + first,
-                                      static_cast<ptrdiff_t>(step));
+    parts.tools->kernels->solve_block(d, end - first, parts.panel->at(first, column),
+                                      static_cast<ptrdiff_t>(parts.panel->step(column)));
   }
 }
 
@@ -10028,12 +10768,12 @@ static void update_rows(const PanelParts& parts, uint32_t first, uint32_t end, d
 /* The columns first .. end of the update matrix. */
 static void update_tail(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch) {
   const Panel& panel = *parts.panel;
-  const size_t step = panel.step(), tail_step = round_up_rows(panel.tail());
+  const size_t step = panel.rows(), tail_step = round_up_rows(panel.tail());
   const double* rows = panel.value + panel.width + first;
   const uint32_t height = static_cast<uint32_t>(tail_step) - first;
   parts.tools->kernels->update(
       {height, end - first, panel.width, rows, step, rows, 1, step,
-       panel.update + first * tail_step + first, tail_step, true, panel.first},
+       panel.update + first * tail_step + first, tail_step, true, panel.first, true, false},
       scratch);
 }
 
@@ -10047,8 +10787,8 @@ static ColumnBlock block_at(const Panel& panel, uint32_t first) {
 uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
   for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
     ColumnBlock block = block_at(panel, first);
-    update_columns(tools, panel, 0, first, block.count, first, panel.step(), tools.scratch);
-    const uint32_t bad = factor_block(tools, panel, panel.step(), &block);
+    update_columns(tools, panel, 0, first, block.count, first, panel.rows(), tools.scratch);
+    const uint32_t bad = factor_block(tools, panel, panel.rows(), &block);
     if (bad != k_none) return bad;
   }
   if (panel.tail() > 0) {
@@ -10094,7 +10834,7 @@ static Status run_parts(Context& context, PanelParts parts, double work) {
 Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
                              uint32_t* bad_column) {
   *bad_column = k_none;
-  const uint32_t rows = panel.step();
+  const uint32_t rows = panel.rows();
   for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
     ColumnBlock block = block_at(panel, first);
     const uint32_t below = round_up_rows(first + block.count);
@@ -10148,7 +10888,7 @@ static Status order_by_tree(const Csc& lower, Array<uint32_t>* order, Array<uint
   Array<uint32_t> tree(context), post(context), given(context);
   TRY(given.copy(order->span()));
   TRY(parent->resize(n));
-  TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper));
+  TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper, false));
   TRY(elimination_tree(upper, &tree));
   TRY(postorder(tree.span(), &post));
   invert_order(post.span(), position->span());
@@ -10215,17 +10955,22 @@ uint32_t Cholesky::slots() const {
   return context_->is_parallel() && fronts_.work > k_worth_dividing ? Fronts::k_batch : 1;
 }
 
+/* The scratch memory would be most of what a small system needs, and no panel of it is tall enough. */
+size_t Cholesky::scratch_size() const {
+  const bool needed = slots() > 1 || needs_scratch(round_up_rows(tallest_), k_block_depth);
+  return needed ? slots() * k_update_scratch : 0;
+}
+
 size_t Cholesky::factor_bytes() const {
   if (!analysed_) return 0;
-  const size_t numbers =
-      supernodes_.panel[supernodes_.count] + fronts_.workspace + slots() * k_update_scratch;
+  const size_t numbers = supernodes_.panel[supernodes_.count] + fronts_.workspace + scratch_size();
   return numbers * sizeof(double);
 }
 
 Status Cholesky::allocate_workspace() {
   TRY(value_.resize(supernodes_.panel[supernodes_.count]));
   TRY(workspace_.resize(fronts_.workspace));
-  return scratch_.resize(slots() * k_update_scratch);
+  return scratch_.resize(scratch_size());
 }
 
 /* Adds the update matrix of a child to the front of its parent. */
@@ -10238,7 +10983,7 @@ void Cholesky::add_child(uint32_t c, const Panel& panel) {
       const double* column = from + size_t{k} * round_up_rows(tail);
       const uint32_t to = run->to + (k - run->from);
       if (to < panel.width) {
-        kernels_.add_runs(run, end, k, column, panel.value + size_t{to} * panel.step(), 0);
+        kernels_.add_runs(run, end, k, column, panel.at(0, to), 0);
       } else {
         double* above = panel.update + size_t{to - panel.width} * round_up_rows(panel.tail());
         kernels_.add_runs(run, end, k, column, above, panel.width);
@@ -10251,10 +10996,10 @@ void Cholesky::add_child(uint32_t c, const Panel& panel) {
 Panel Cholesky::assemble(uint32_t s, const double* source) {
   Panel panel = {value_.data() + supernodes_.panel[s], supernodes_.height(s), supernodes_.width(s),
                  workspace_.data() + fronts_.update[s], fronts_.child[s] == k_none};
-  const size_t step = panel.step();
-  std::memset(panel.value, 0, (step * panel.width + k_panel_margin) * sizeof(double));
-  double* column = panel.value;
-  for (uint32_t j = supernodes_.first[s]; j < supernodes_.first[s + 1]; ++j, column += step) {
+  const size_t size = supernodes_.panel[s + 1] - supernodes_.panel[s];
+  std::memset(panel.value, 0, size * sizeof(double));
+  for (uint32_t j = supernodes_.first[s]; j < supernodes_.first[s + 1]; ++j) {
+    double* column = panel.at(0, j - supernodes_.first[s]);
     for (uint32_t k = lower_.start[j]; k < lower_.start[j + 1]; ++k) {
       column[lower_.index[k]] = source[lower_.source[k]];
     }
@@ -10391,19 +11136,34 @@ struct Lanes {
 
 }  /* namespace */
 
+/* Three lanes at a time, those of a row being neighbours: vectors of space come in threes. */
 static void gather_lanes(const uint32_t* rows, uint32_t height, const double* y, const Lanes& z) {
-  for (uint32_t l = 0; l < z.count; ++l) {
-    const double* from = y + l;
+  uint32_t l = 0;
+  for (; l + 3 <= z.count; l += 3) {
     double* to = z.value + l * z.step;
-    for (uint32_t r = 0; r < height; ++r) to[r] = from[size_t{rows[r]} * z.count];
+    for (uint32_t r = 0; r < height; ++r, ++to) {
+      const double* from = y + (size_t{rows[r]} * z.count + l);
+      to[0] = from[0], to[z.step] = from[1], to[2 * z.step] = from[2];
+    }
+  }
+  for (; l < z.count; ++l) {
+    double* to = z.value + l * z.step;
+    for (uint32_t r = 0; r < height; ++r) to[r] = y[size_t{rows[r]} * z.count + l];
   }
 }
 
 static void scatter_lanes(const uint32_t* rows, uint32_t height, const Lanes& z, double* y) {
-  for (uint32_t l = 0; l < z.count; ++l) {
+  uint32_t l = 0;
+  for (; l + 3 <= z.count; l += 3) {
     const double* from = z.value + l * z.step;
-    double* to = y + l;
-    for (uint32_t r = 0; r < height; ++r) to[size_t{rows[r]} * z.count] = from[r];
+    for (uint32_t r = 0; r < height; ++r, ++from) {
+      double* to = y + (size_t{rows[r]} * z.count + l);
+      to[0] = from[0], to[1] = from[z.step], to[2] = from[2 * z.step];
+    }
+  }
+  for (; l < z.count; ++l) {
+    const double* from = z.value + l * z.step;
+    for (uint32_t r = 0; r < height; ++r) y[size_t{rows[r]} * z.count + l] = from[r];
   }
 }
 
@@ -10439,19 +11199,18 @@ static Lanes lanes_at(double* at, size_t step, uint32_t lanes) {
 void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
-  const size_t step = supernodes_.column_step(s);
-  const double* panel = value_.data() + supernodes_.panel[s];
+  size_t step = supernodes_.column_step(s);
+  const double* block = value_.data() + supernodes_.panel[s];  /* at its first diagonal entry */
   double* y = workspace_.data();
   const Lanes z = lanes_at(y + size_t{n_} * lanes, lane_step(), lanes);
   gather_lanes(supernodes_.rows(s), height, y, z);
-  for (uint32_t j = 0; j < width; j += k_block) {
+  for (uint32_t j = 0; j < width; j += k_block, block += k_block * step, step -= k_block) {
     const uint32_t columns = width - j < k_block ? width - j : k_block;
     const uint32_t after = j + columns;
-    const double* block = panel + j * step;
-    if (after < width) fetch(block + columns * step, columns * step);
-    solve_triangle(kernels_, triangle_at(block + j, step, columns, false), j, false, z);
+    if (after < width) fetch(block + k_block * step, columns * step);
+    solve_triangle(kernels_, triangle_at(block, step, columns, false), j, false, z);
     if (after == height) break;
-    kernels_.update({round_up_rows(height - after), lanes, columns, block + after, step,
+    kernels_.update({round_up_rows(height - after), lanes, columns, block + columns, step,
                      z.value + j, z.step, 1, z.value + after, z.step, false, false},
                     scratch_.data());
   }
@@ -10462,25 +11221,28 @@ void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
 void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
-  const size_t step = supernodes_.column_step(s);
-  const double* panel = value_.data() + supernodes_.panel[s];
+  uint32_t j = (width - 1) / k_block * k_block + k_block;
+  size_t step = size_t{supernodes_.column_step(s)} - j;
+  size_t at = supernodes_.panel[s] + trapezoid_size(step + j, j);
   double* y = workspace_.data();
   const Lanes z = lanes_at(y + size_t{n_} * lanes, lane_step(), lanes);
   gather_lanes(supernodes_.rows(s), height, y, z);
   for (uint32_t l = 0; l < lanes; ++l) {
     for (uint32_t r = height; r < height + 4; ++r) z.value[l * z.step + r] = 0.0;
   }
-  for (uint32_t j = (width - 1) / k_block * k_block + k_block; j > 0;) {
+  while (j > 0) {
     j -= k_block;
+    step += k_block;
+    at -= k_block * step;
     const uint32_t columns = width - j < k_block ? width - j : k_block;
     const uint32_t after = j + columns;
-    const double* block = panel + j * step;
-    if (j > 0) fetch(block - k_block * step, k_block * step);
+    const double* block = value_.data() + at;  /* at its first diagonal entry */
+    if (j > 0) fetch(block - k_block * (step + k_block), k_block * (step + k_block));
     if (after < height) {
-      kernels_.subtract_dots({columns, lanes, round_up_rows(height - after), block + after, step,
+      kernels_.subtract_dots({columns, lanes, round_up_rows(height - after), block + columns, step,
                               z.value + after, z.step, z.value + j, z.step});
     }
-    solve_triangle(kernels_, triangle_at(block + j, step, columns, true), j, true, z);
+    solve_triangle(kernels_, triangle_at(block, step, columns, true), j, true, z);
   }
   scatter_lanes(supernodes_.rows(s), width, z, y);
 }
@@ -10661,16 +11423,26 @@ namespace wireskin::smooth {
 
 /* Whether most of x is zero, as on meshes of which only the curves are known. */
 static bool is_mostly_zero(Span<const Vec3> x) {
-  size_t zeros = 0;
-  for (const Vec3& v : x) zeros += v == Vec3{};
-  return 4 * zeros > 3 * x.size();
+  size_t others = 0;
+  for (const Vec3& v : x) {
+    others += v != Vec3{};
+    if (4 * others >= x.size()) return false;
+  }
+  return true;
 }
 
 /* Row j of A x for a symmetric matrix with both halves stored: column j is row j. */
 static Vec3 multiply_row(const sparse::Csc& a, uint32_t j, Span<const Vec3> x) {
-  Vec3 sum;
-  for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) sum += a.value[p] * x[a.row[p]];
-  return sum;
+  const uint32_t* const row = a.row.data();
+  const double* const value = a.value.data();
+  double sum_x = 0.0, sum_y = 0.0, sum_z = 0.0;
+  for (uint32_t p = a.start[j], end = a.start[j + 1]; p < end; ++p) {
+    const Vec3& at = x[row[p]];
+    sum_x += value[p] * at.x;
+    sum_y += value[p] * at.y;
+    sum_z += value[p] * at.z;
+  }
+  return {sum_x, sum_y, sum_z};
 }
 
 /* y = A x; columns that meet zeros are spared where there are many. */
@@ -11248,6 +12020,27 @@ static Status renumber_guarded(Span<const uint32_t> original, uint32_t patches,
   return guarded->copy(all.span());
 }
 
+/* Leaves the outside of an open surface open, whose curves no one tagged. */
+static Status find_borders(const curves::Curves& fitted, Array<network::Node>* nodes,
+                           network::Network* network, network::CurveVertices* vertices,
+                           Array<Status>* faults, Counts* counts) {
+  Context& context = nodes->context();
+  Array<uint32_t> original(context);
+  TRY(network::drop_outsides(*vertices, nodes, network, faults, &original));
+  if (original.empty()) return {};
+  counts->found_borders = counts->patches - network->patches();
+  counts->patches = network->patches();
+  counts->segments = static_cast<uint32_t>(network->segment.size());
+  const uint32_t ambiguous = counts->first_ambiguous_patch;
+  for (uint32_t p = 0; p < original.size() && ambiguous != k_none; ++p) {
+    if (original[p] <= ambiguous) counts->first_ambiguous_patch = p;
+  }
+  network::CurveVertices fresh(context);
+  TRY(network::resample(fitted, nodes->span(), *network, counts->spacing, &fresh));
+  *vertices = static_cast<network::CurveVertices&&>(fresh);
+  return {};
+}
+
 Status surface_curves(Context& context, const CurveSet& set, const Settings& settings,
                       Surface* surface) {
   Counts* counts = &surface->counts;
@@ -11274,12 +12067,16 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
                             settings.partial ? &faults : nullptr));
   counts->segments = static_cast<uint32_t>(network.segment.size());
   counts->patches = network.patches();
+  TRY(network::check_vertex_count(fitted, network, counts->spacing));
   TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
   network::Ambiguity ambiguity;
   TRY(network::group_patches(vertices, &network, &ambiguity));
   counts->ambiguous_patches = ambiguity.patches;
   counts->first_ambiguous_patch = ambiguity.first;
   counts->patches = network.patches();
+  if (settings.find_borders) {
+    TRY(find_borders(fitted, &nodes, &network, &vertices, &faults, counts));
+  }
 
   TRY(context.enter(Stage::patches));
   TRY(make_patches(fitted, settings, faults.span(), &nodes, &network, &vertices, &patches,
@@ -11312,6 +12109,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   if (!original.empty()) {  /* the smoothing counted those that are left */
     for (uint32_t& p : surface->patch) p = original[p];
     counts->patches += counts->failed_patches;
+    uint32_t& inverted = counts->first_inverted_patch;
+    if (inverted != k_none) inverted = original[inverted];
     TRY(renumber_guarded(original.span(), counts->patches, &surface->patch_guarded));
   }
   return measure_constraints(set, given.span(), surface);
@@ -11433,6 +12232,9 @@ void report_counts(const Counts& counts, const Scale& unscale, wsk_report* repor
   report->failed_patches = counts.failed_patches;
   report->ambiguous_patches = counts.ambiguous_patches;
   report->first_ambiguous_patch = counts.first_ambiguous_patch;
+  report->found_borders = counts.found_borders;
+  report->inverted_triangles = counts.inverted_triangles;
+  report->first_inverted_patch = counts.first_inverted_patch;
 }
 
 void report_costs(Context& context, wsk_report* report) {
@@ -11576,6 +12378,11 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
 /* ======== begin src/api/curves.cpp ======== */
 namespace wireskin::api {
 
+/* A point has no sides. */
+static bool is_sharp(const wsk_curve& curve) {
+  return curve.sharp != 0 && (curve.sample_count != 1 || curve.closed != 0);
+}
+
 static Status count_samples(const wsk_curve* curves, size_t count, size_t* total, bool* sharp) {
   *total = 0;
   *sharp = false;
@@ -11591,7 +12398,7 @@ static Status count_samples(const wsk_curve* curves, size_t count, size_t* total
     if (curve.positions == nullptr) {
       return fail(Code::bad_argument, "the curve has no positions", place);
     }
-    *sharp = *sharp || curve.sharp != 0;
+    *sharp = *sharp || is_sharp(curve);
     if (curve.normals == nullptr && curve.sharp == 0 && curve.sample_count != 1) {
       return fail(Code::missing_normals, "the curve has no normals", place);
     }
@@ -11621,7 +12428,7 @@ static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* s
     storage->normal.push_reserved(normal);
     storage->number.push_reserved(curve.nodes == nullptr ? k_none : curve.nodes[i]);
     if (storage->sharp.empty()) continue;
-    const double* right = curve.sharp != 0 ? curve.normals_right : nullptr;
+    const double* right = is_sharp(curve) ? curve.normals_right : nullptr;
     TRY(read_side_normal(right, curve.normal_right_stride, i, place, &normal));
     storage->right.push_reserved(normal);
   }
@@ -11649,7 +12456,7 @@ Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage)
   if (sharp) {
     TRY(storage->sharp.resize(count));
     TRY(storage->right.reserve(total));
-    for (size_t c = 0; c < count; ++c) storage->sharp[c] = curves[c].sharp != 0;
+    for (size_t c = 0; c < count; ++c) storage->sharp[c] = is_sharp(curves[c]);
   }
   storage->start.push_reserved(0);
   for (size_t c = 0; c < count; ++c) {
@@ -12419,8 +13226,9 @@ struct StationLine {
 /* A sample in the diametral ball of a segment. */
 struct Encroacher {
   uint32_t sample = k_none;
-  double share = 0.0;  /* of the segment, up to its foot */
-  double gap = 0.0;    /* its distance from there */
+  double share = 0.0;     /* of the segment, up to its foot */
+  double gap = 0.0;       /* its distance from there */
+  double from_end = 0.0;  /* along the segment */
 };
 
 }  /* namespace */
@@ -12495,7 +13303,8 @@ static Status choose_steps(Context& context, const Arcs& arcs, double greatest_s
       const uint32_t b = coarse.arc[near];
       if (seen[b] == a) return false;
       seen[b] = a;
-      nearest = smaller(nearest, stray(coarse, a, b, nearest));
+      const double distance = stray(coarse, a, b, nearest);
+      if (distance > k_same_curve * arcs.diagonal) nearest = smaller(nearest, distance);
       return false;
     });
     (*steps)[a] = larger(0.5 * nearest, k_least_step * greatest_step);
@@ -12687,7 +13496,7 @@ static Encroacher find_encroacher(const PointGrid& grid, const Samples& samples,
     const double share = dot(c - a, b - a) / square, off = std::fabs(share - 0.5);
     if (off > best_off || (off == best_off && r > best.sample)) return false;
     best_off = off;
-    best = {r, share, length(c - a - share * (b - a))};
+    best = {r, share, length(c - a - share * (b - a)), (0.5 - off) * std::sqrt(square)};
     return false;
   });
   return best;
@@ -12702,10 +13511,13 @@ static double power_of_two_near(double x) {
 /* Beside a node at a power of two from it, so that splits of all its arcs agree. Elsewhere at the */
 /* foot of the sample in the ball, whose ball is then clear of it however near it is: curves that */
 /* run side by side get samples side by side, not as many as their gap goes into their length. */
-/* Halfway if the foot is near an end. */
-static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i, double foot) {
+/* Halfway if the foot is near an end, but where the curves are as good as one. */
+static double split_at(const Arcs& arcs, const Samples& samples, uint32_t i,
+                       const Encroacher& near) {
   constexpr double k_near_end = 0.2;
+  const double foot = near.share;
   const double from = samples.along[i], to = samples.along[i + 1], half = 0.5 * (to - from);
+  if (near.gap <= k_least_segment * arcs.diagonal) return from + foot * (to - from);
   const uint32_t p = samples.vertex[samples.at[i]], q = samples.vertex[samples.at[i + 1]];
   const bool at_p = p != k_none && arcs.is_node[p] != 0;
   const bool at_q = q != k_none && arcs.is_node[q] != 0;
@@ -12720,6 +13532,8 @@ static bool is_crowded(const Encroacher& near, double length, double greatest_st
                        double diagonal) {
   constexpr double k_coinciding = 0.05;  /* of the length */
   if (length < 2.0 * k_least_segment * diagonal) return true;
+  if (near.gap <= k_least_segment * diagonal && near.from_end < k_least_segment * diagonal)
+    return true;
   return length < 2.0 * k_least_step * greatest_step && near.gap < k_coinciding * length;
 }
 
@@ -12748,7 +13562,7 @@ static Status split_encroached(Context& context, const Arcs& arcs, double greate
         ++samples->too_short;
         continue;
       }
-      TRY(stations->along.push(split_at(arcs, *samples, i, near.share)));
+      TRY(stations->along.push(split_at(arcs, *samples, i, near)));
       ++samples->splits;
       *any = true;
       if (stations->along.size() > k_most_samples) {
@@ -12756,6 +13570,22 @@ static Status split_encroached(Context& context, const Arcs& arcs, double greate
       }
     }
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
+  }
+  return {};
+}
+
+/* Where curves lie on each other their samples do so bit for bit, so that they are one edge. */
+static Status weld_samples(Context& context, double tolerance, Samples* samples) {
+  PointGrid grid(context);
+  TRY(grid.build(samples->position.span()));
+  for (uint32_t i = 0; i < samples->position.size(); ++i) {
+    uint32_t first = i;
+    const Vec3 p = samples->position[i];
+    grid.any_near(p, tolerance, [&](uint32_t k) {
+      if (k < first && length(samples->position[k] - p) <= tolerance) first = k;
+      return false;
+    });
+    samples->position[i] = samples->position[first];
   }
   return {};
 }
@@ -12770,7 +13600,7 @@ Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Sam
     TRY(split_encroached(context, arcs, greatest_step, samples, &stations, &any));
     if (any) TRY(place_samples(context, arcs, stations, samples));
   }
-  return {};
+  return weld_samples(context, k_coincidence * arcs.diagonal, samples);
 }
 
 }  /* namespace wireskin::flow */
@@ -12810,6 +13640,1193 @@ Status find_curve_edges(const Complex& complex, const Samples& samples, CurveEdg
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/curve_edges.cpp ======== */
+
+/* ======== begin src/flow/straight_lines.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_straight = 0.01;       /* of an arc's length, off its chord */
+static constexpr double k_unseen_bend = 0.9985;  /* cosine */
+static constexpr double k_unseen_step = 1e-5;    /* of the diagonal, of a node off a line */
+
+static bool has_line(const StraightLines& lines, uint32_t v, uint32_t line) {
+  for (uint32_t i = lines.start[v]; i < lines.start[v + 1]; ++i) {
+    if (lines.line[i] == line) return true;
+  }
+  return false;
+}
+
+uint32_t StraightLines::common(uint32_t u, uint32_t v) const {
+  for (uint32_t i = start[u]; i < start[u + 1]; ++i) {
+    if (has_line(*this, v, line[i])) return line[i];
+  }
+  return k_none;
+}
+
+uint32_t StraightLines::common(uint32_t u, uint32_t v, uint32_t w) const {
+  for (uint32_t i = start[u]; i < start[u + 1]; ++i) {
+    if (has_line(*this, v, line[i]) && has_line(*this, w, line[i])) return line[i];
+  }
+  return k_none;
+}
+
+static bool stays_on_line(const Samples& samples, uint32_t first, uint32_t last) {
+  const Vec3& p = samples.position[samples.at[first]];
+  const Vec3 chord = samples.position[samples.at[last]] - p;
+  const Vec3 along = unit(chord);
+  for (uint32_t i = first + 1; i < last; ++i) {
+    const Vec3 to = samples.position[samples.at[i]] - p;
+    if (length(reject(to, along)) > k_straight * length(chord)) return false;
+  }
+  return samples.at[first] != samples.at[last];
+}
+
+static uint32_t root_of_line(Span<uint32_t> parent, uint32_t a) {
+  while (parent[a] != a) a = parent[a] = parent[parent[a]];
+  return a;
+}
+
+/* Two straight arcs from a node, by their other ends. */
+static bool goes_on(const Complex& complex, uint32_t node, uint32_t u, uint32_t v) {
+  const Vec3 a = complex.point[u] - complex.point[node];
+  const Vec3 b = complex.point[v] - complex.point[node];
+  if (dot(unit(a), unit(b)) > -k_unseen_bend) return false;
+  return length(reject(a, unit(b - a))) <= k_unseen_step * complex.diagonal;
+}
+
+/* Joins the arcs that go on at nodes. Until then each straight arc is a line of its own. */
+static Status join_lines(const Complex& complex, const Samples& samples, Span<uint32_t> parent) {
+  Array<uint32_t> start(complex.point.context()), arc(complex.point.context());
+  const auto end_of = [&](uint32_t a, uint32_t end) {
+    const uint32_t at = end == 0 ? samples.start[a] : samples.start[a + 1] - 1;
+    return complex.same_as[samples.at[at]];
+  };
+  TRY(start.assign(complex.point.size() + 1, 0));
+  TRY(arc.resize(2 * parent.size()));
+  for (uint32_t a = 0; a < parent.size(); ++a) {
+    for (uint32_t end = 0; end < 2 && parent[a] != k_none; ++end) ++start[end_of(a, end)];
+  }
+  starts_from_counts(start.span());
+  for (uint32_t a = 0; a < parent.size(); ++a) {
+    for (uint32_t end = 0; end < 2 && parent[a] != k_none; ++end) arc[start[end_of(a, end)]++] = a;
+  }
+  /* The starts have moved on to the ends. */
+  for (uint32_t v = 0; v < complex.point.size(); ++v) {
+    for (uint32_t i = v == 0 ? 0 : start[v - 1]; i < start[v]; ++i) {
+      for (uint32_t k = i + 1; k < start[v]; ++k) {
+        const uint32_t u = end_of(arc[i], 0) == v ? end_of(arc[i], 1) : end_of(arc[i], 0);
+        const uint32_t w = end_of(arc[k], 0) == v ? end_of(arc[k], 1) : end_of(arc[k], 0);
+        if (u == w || !goes_on(complex, v, u, w)) continue;
+        parent[root_of_line(parent, arc[i])] = root_of_line(parent, arc[k]);
+      }
+    }
+  }
+  return {};
+}
+
+Status find_straight_lines(const Complex& complex, const Samples& samples, StraightLines* lines) {
+  const uint32_t arcs = static_cast<uint32_t>(samples.start.size() - 1);
+  Array<uint32_t> parent(lines->line.context()), number(lines->line.context());
+  TRY(parent.assign(arcs, k_none));
+  for (uint32_t a = 0; a < arcs; ++a) {
+    if (stays_on_line(samples, samples.start[a], samples.start[a + 1] - 1)) parent[a] = a;
+  }
+  TRY(join_lines(complex, samples, parent.span()));
+  TRY(number.assign(arcs, k_none));
+  TRY(lines->line_of.assign(arcs, k_none));
+  TRY(lines->start.assign(complex.point.size() + 1, 0));
+  TRY(lines->arc_start.assign(size_t{arcs} + 1, 0));
+  uint32_t count = 0;
+  size_t vertices = 0;
+  for (uint32_t a = 0; a < arcs; ++a) {
+    if (parent[a] == k_none) continue;
+    uint32_t& line = number[root_of_line(parent.span(), a)];
+    if (line == k_none) line = count++;
+    lines->line_of[a] = line;
+    ++lines->arc_start[line];
+    for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i, ++vertices) {
+      ++lines->start[complex.same_as[samples.at[i]]];
+    }
+  }
+  TRY(lines->arc.resize(arcs));
+  TRY(lines->line.resize(vertices));
+  starts_from_counts(lines->start.span());
+  starts_from_counts(lines->arc_start.span());
+  for (uint32_t a = arcs; a-- > 0;) {
+    if (parent[a] == k_none) continue;
+    lines->arc[lines->arc_start[lines->line_of[a]]++] = a;
+    for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
+      lines->line[lines->start[complex.same_as[samples.at[i]]]++] = lines->line_of[a];
+    }
+  }
+  for (size_t i = lines->start.size() - 1; i > 0; --i) lines->start[i] = lines->start[i - 1];
+  for (size_t i = lines->arc_start.size() - 1; i > 0; --i) {
+    lines->arc_start[i] = lines->arc_start[i - 1];
+  }
+  lines->start[0] = lines->arc_start[0] = 0;
+  return {};
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/straight_lines.cpp ======== */
+
+/* ======== begin src/flow/flat_faces.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_least_corner = 0.94;  /* cosine of what a polygon turns at a corner */
+static constexpr double k_beside = 1e-5;        /* of the diagonal, from an edge */
+static constexpr uint8_t k_most_visits = 4;
+/* Of lines and samples looked at; who draws faces as dense as that gets none. */
+static constexpr size_t k_most_work = size_t{1} << 26;
+
+namespace {
+
+struct Plane {
+  Vec3 at, normal;
+};
+
+enum class Crossed : uint8_t { unknown, no, yes };
+
+struct FaceFlood {
+  /* For what runs across a triangle: ends of lines, those of them in the plane of a seed; samples */
+  /* of arcs that bend; what is known of each triangle, and how much was looked at. */
+  Array<Vec3> line_end;
+  Array<uint32_t> plane_line;
+  uint32_t plane_line_of = k_none;
+  PointGrid grid;
+  Array<uint32_t> curved;
+  Array<Crossed> crossed;
+  size_t work = 0;
+  Array<uint32_t> mark;               /* of each triangle: the seed whose face it was last in */
+  Array<uint8_t> visits;              /* of each triangle */
+  Array<uint32_t> member;             /* the face */
+  Array<uint32_t> left;               /* to be looked at again */
+  Array<uint8_t> straight;            /* of each edge: on a straight arc */
+  Array<uint32_t> arc_of;             /* of each edge on a curve */
+  Array<uint32_t> rim_of;             /* of each arc: the seed of the face that has it last */
+  Array<uint32_t> next_start, next;   /* of each vertex: those that segments join it to */
+  Array<uint32_t> seen, border_edge;  /* of each vertex: its edges on the border, and one of them */
+
+  explicit FaceFlood(Context& context)
+      : line_end(context),
+        plane_line(context),
+        grid(context),
+        curved(context),
+        crossed(context),
+        mark(context),
+        visits(context),
+        member(context),
+        left(context),
+        straight(context),
+        arc_of(context),
+        rim_of(context),
+        next_start(context),
+        next(context),
+        seen(context),
+        border_edge(context) {}
+};
+
+}  /* namespace */
+
+static double twice_area(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  return length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
+}
+
+static Plane plane_of(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  return {a, unit(cross(complex.point[v[1]] - a, complex.point[v[2]] - a))};
+}
+
+static bool in_plane(const Complex& complex, const Plane& plane, uint32_t t) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3& p = complex.point[complex.triangle[3 * size_t{t} + k]];
+    if (std::fabs(dot(p - plane.at, plane.normal)) > k_flat * complex.diagonal) return false;
+  }
+  return true;
+}
+
+/* What segments of curves join each vertex to. */
+static Status link_segments(const Complex& complex, const CurveEdges& curves, FaceFlood* flood) {
+  size_t count = 0;
+  TRY(flood->next_start.assign(complex.point.size() + 1, 0));
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (!curves.on_curve(e)) continue;
+    ++flood->next_start[complex.edge[2 * size_t{e}]];
+    ++flood->next_start[complex.edge[2 * size_t{e} + 1]];
+    count += 2;
+  }
+  TRY(flood->next.resize(count));
+  starts_from_counts(flood->next_start.span());
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (!curves.on_curve(e)) continue;
+    const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
+    flood->next[flood->next_start[a]++] = b;
+    flood->next[flood->next_start[b]++] = a;
+  }
+  for (size_t v = flood->next_start.size() - 1; v > 0; --v) {
+    flood->next_start[v] = flood->next_start[v - 1];
+  }
+  flood->next_start[0] = 0;
+  return {};
+}
+
+/* Marks the edges of arcs. */
+static Status mark_arcs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                        const StraightLines& lines, FaceFlood* flood) {
+  TRY(flood->straight.assign(complex.edge_count(), 0));
+  TRY(flood->arc_of.assign(complex.edge_count(), k_none));
+  TRY(flood->rim_of.assign(samples.start.size(), k_none));
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
+      if (curves.edge_of[i] == k_none) continue;
+      flood->arc_of[curves.edge_of[i]] = a;
+      if (lines.is_straight(a)) flood->straight[curves.edge_of[i]] = 1;
+    }
+  }
+  return {};
+}
+
+static Vec3 edge_vector(const Complex& complex, uint32_t e, uint32_t from) {
+  const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
+  return unit(a == from ? complex.point[b] - complex.point[a]
+                        : complex.point[a] - complex.point[b]);
+}
+
+/* Edges of the complex that belong to the curves, or run along a straight line of them. */
+static bool on_rim(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
+                   uint32_t e) {
+  if (curves.on_curve(e)) return true;
+  return lines.common(complex.edge[2 * size_t{e}], complex.edge[2 * size_t{e} + 1]) != k_none;
+}
+
+/* All corners on one straight line: such a triangle lies in every plane through it. */
+static bool is_line(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
+                    uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const uint32_t* const edge = &complex.triangle_edge[3 * size_t{t}];
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t e = edge[(k + 1) % 3], f = edge[(k + 2) % 3];
+    if (!curves.on_curve(e) || !curves.on_curve(f)) continue;
+    if (dot(edge_vector(complex, e, v[k]), edge_vector(complex, f, v[k])) < -k_same_line) {
+      return true;
+    }
+  }
+  return lines.common(v[0], v[1], v[2]) != k_none;
+}
+
+/* Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or */
+/* along its edges. */
+static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, const Vec3& p,
+                           const Vec3& q) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const double margin = k_beside * complex.diagonal;
+  double from = 0.0, to = 1.0;
+  const Vec3& a = complex.point[v[0]];
+  const Vec3 n = cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
+  const Vec3 up = dot(n, plane.normal) > 0.0 ? plane.normal : -plane.normal;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3& b = complex.point[v[k]];
+    const Vec3 inward = cross(up, unit(complex.point[v[(k + 1) % 3]] - b));
+    const double at_p = dot(p - b, inward) - margin, at_q = dot(q - b, inward) - margin;
+    if (at_p <= 0.0 && at_q <= 0.0) return false;
+    if (at_p < 0.0) from = larger(from, at_p / (at_p - at_q));
+    if (at_q < 0.0) to = smaller(to, at_p / (at_p - at_q));
+  }
+  return (to - from) * length(q - p) > margin;
+}
+
+static bool near_plane(const Complex& complex, const Plane& plane, const Vec3& p) {
+  return std::fabs(dot(p - plane.at, plane.normal)) <= k_flat * complex.diagonal;
+}
+
+static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_t seed, uint32_t t,
+                             FaceFlood* flood) {
+  const Array<Vec3>& end = flood->line_end;
+  if (flood->plane_line_of != seed) {
+    flood->plane_line_of = seed;
+    flood->plane_line.clear();
+    flood->work += end.size() / 2;
+    for (uint32_t i = 0; i < end.size(); i += 2) {
+      const bool within =
+          near_plane(complex, plane, end[i]) && near_plane(complex, plane, end[i + 1]);
+      if (within) flood->plane_line.push_reserved(i);
+    }
+  }
+  flood->work += flood->plane_line.size();
+  for (const uint32_t i : flood->plane_line) {
+    if (passes_through(complex, plane, t, end[i], end[i + 1])) return true;
+  }
+  return false;
+}
+
+/* An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that */
+/* of which the segment is a diameter. */
+static bool any_bend_crosses(const Complex& complex, const StraightLines& lines, const Plane& plane,
+                             uint32_t t, FaceFlood* flood) {
+  if (flood->curved.empty()) return false;
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
+  const double size = larger(length(b - a), larger(length(c - b), length(a - c)));
+  return flood->grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t at) {
+    const uint32_t i = flood->curved[at];
+    ++flood->work;
+    if (!near_plane(complex, plane, complex.point[i])) return false;
+    for (uint32_t k = flood->next_start[i]; k < flood->next_start[i + 1]; ++k) {
+      const Vec3& q = complex.point[flood->next[k]];
+      if (!near_plane(complex, plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
+      if (passes_through(complex, plane, t, complex.point[i], q)) return true;
+    }
+    return false;
+  });
+}
+
+/* Whether a curve runs across the triangle: outermost layers, of huge empty balls outside of the */
+/* hull, may reach across. */
+static bool is_crossed(const Complex& complex, const StraightLines& lines, const Plane& plane,
+                       uint32_t seed, uint32_t t, FaceFlood* flood) {
+  if (flood->crossed[t] == Crossed::unknown) {
+    const bool crossed = any_line_crosses(complex, plane, seed, t, flood) ||
+                         any_bend_crosses(complex, lines, plane, t, flood);
+    flood->crossed[t] = crossed ? Crossed::yes : Crossed::no;
+  }
+  return flood->crossed[t] == Crossed::yes;
+}
+
+/* Which side of an edge, within the plane, a triangle lies on. */
+static bool on_left(const Complex& complex, const Plane& plane, uint32_t e, uint32_t t) {
+  const Vec3& a = complex.point[complex.edge[2 * size_t{e}]];
+  const Vec3& b = complex.point[complex.edge[2 * size_t{e} + 1]];
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3 middle =
+      (1.0 / 3.0) * (complex.point[v[0]] + complex.point[v[1]] + complex.point[v[2]]);
+  return dot(cross(b - a, middle - a), plane.normal) > 0.0;
+}
+
+/* The sides of an edge that the face takes up, a bit each. */
+static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const Plane& plane,
+                         uint32_t seed, uint32_t e) {
+  uint32_t sides = 0;
+  for (const uint32_t t : complex.triangles_of(e)) {
+    if (flood.mark[t] == seed) sides |= on_left(complex, plane, e, t) ? 1u : 2u;
+  }
+  return sides;
+}
+
+static Status flood_face(const Complex& complex, const CurveEdges& curves,
+                         const StraightLines& lines, const FlatFaces& faces, const Plane& plane,
+                         uint32_t seed, FaceFlood* flood) {
+  flood->member.clear();
+  const auto add = [&](uint32_t t) {
+    flood->mark[t] = seed;
+    ++flood->visits[t];
+    return flood->member.push(t);
+  };
+  TRY(add(seed));
+  for (size_t i = 0; i < flood->member.size(); ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
+      if (on_rim(complex, curves, lines, e)) continue;
+      for (const uint32_t t : complex.triangles_of(e)) {
+        const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
+        if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
+        if (is_line(complex, curves, lines, t)) continue;
+        if (!is_crossed(complex, lines, plane, seed, t, flood)) TRY(add(t));
+      }
+    }
+  }
+  return {};
+}
+
+/* Whether the triangle goes on, at each of its edges off the curves, on the other side. */
+static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
+                              const StraightLines& lines, const FaceFlood& flood,
+                              const Plane& plane, uint32_t seed, uint32_t t) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+    if (on_rim(complex, curves, lines, e)) continue;
+    if (sides_of(complex, flood, plane, seed, e) != 3) return false;
+  }
+  return true;
+}
+
+/* Leaves only triangles that go on all round: all of a face where curves close it, nothing where */
+/* not. */
+static Status close_face(const Complex& complex, const CurveEdges& curves,
+                         const StraightLines& lines, const Plane& plane, uint32_t seed,
+                         FaceFlood* flood) {
+  Array<uint32_t>& left = flood->left;
+  TRY(left.copy(flood->member.span()));
+  while (!left.empty()) {
+    const uint32_t t = left.back();
+    left.pop();
+    ++flood->work;
+    if (flood->mark[t] != seed) continue;
+    if (goes_on_all_round(complex, curves, lines, *flood, plane, seed, t)) continue;
+    flood->mark[t] = k_none;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (on_rim(complex, curves, lines, e)) continue;
+      for (const uint32_t next : complex.triangles_of(e)) {
+        if (flood->mark[next] == seed) TRY(left.push(next));
+      }
+    }
+  }
+  size_t kept = 0;
+  for (const uint32_t t : flood->member) {
+    if (flood->mark[t] == seed) flood->member[kept++] = t;
+  }
+  flood->member.shrink(kept);
+  return {};
+}
+
+/* Notes an edge of the border at both its ends; false if it makes a bend with the one before. */
+static bool turns_well(const Complex& complex, uint32_t e, FaceFlood* flood) {
+  bool well = true;
+  for (uint32_t end = 0; end < 2; ++end) {
+    const uint32_t v = complex.edge[2 * size_t{e} + end];
+    if (flood->seen[v]++ == 0) {
+      flood->border_edge[v] = e;
+      continue;
+    }
+    const double cosine =
+        -dot(edge_vector(complex, e, v), edge_vector(complex, flood->border_edge[v], v));
+    well = well && (cosine > k_same_line || cosine < k_least_corner);
+  }
+  return well;
+}
+
+static bool is_polygon(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
+                       const Plane& plane, uint32_t seed, FaceFlood* flood) {
+  double whole = 0.0, straight = 0.0;
+  bool corners = true;
+  for (const uint32_t t : flood->member) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (!on_rim(complex, curves, lines, e)) continue;
+      if (sides_of(complex, *flood, plane, seed, e) == 3) continue;
+      const double size = length(complex.point[complex.edge[2 * size_t{e}]] -
+                                 complex.point[complex.edge[2 * size_t{e} + 1]]);
+      whole += size;
+      if (curves.on_curve(e) && flood->straight[e] == 0) continue;
+      straight += size;
+      corners = turns_well(complex, e, flood) && corners;
+    }
+  }
+  for (const uint32_t t : flood->member) {
+    for (uint32_t k = 0; k < 3; ++k) flood->seen[complex.triangle[3 * size_t{t} + k]] = 0;
+  }
+  return corners && straight >= 0.5 * whole;
+}
+
+/* Whether a curve goes through the face, from one side to the other. */
+static bool is_pierced(const Complex& complex, const Plane& plane, const FaceFlood& flood) {
+  for (const uint32_t t : flood.member) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t v = complex.triangle[3 * size_t{t} + k];
+      bool above = false, below = false, within = false;
+      for (uint32_t i = flood.next_start[v]; i < flood.next_start[v + 1]; ++i) {
+        const double off = dot(complex.point[flood.next[i]] - plane.at, plane.normal);
+        above = above || off > k_flat * complex.diagonal;
+        below = below || off < -k_flat * complex.diagonal;
+        within = within || std::fabs(off) <= k_flat * complex.diagonal;
+      }
+      if (above && below && !within) return true;
+    }
+  }
+  return false;
+}
+
+/* Notes an arc that has the face on one side. */
+static Status add_rim(const Complex& complex, const Plane& plane, uint32_t arc, uint32_t e,
+                      uint32_t sides, uint32_t seed, FaceFlood* flood, FlatFaces* faces) {
+  if (flood->rim_of[arc] == seed) return {};
+  flood->rim_of[arc] = seed;
+  const Vec3 left = cross(plane.normal, edge_vector(complex, e, complex.edge[2 * size_t{e}]));
+  return faces->rim.push({arc, sides == 1 ? left : -left});
+}
+
+/* Whether an arc of a line runs along an edge on it, for more than half of either. */
+static bool runs_along(const Complex& complex, const Samples& samples, uint32_t a, uint32_t e) {
+  const Vec3& from = complex.point[complex.edge[2 * size_t{e}]];
+  const Vec3& to = complex.point[complex.edge[2 * size_t{e} + 1]];
+  const Vec3 along = unit(to - from);
+  const double whole = length(to - from);
+  double s = dot(samples.position[samples.at[samples.start[a]]] - from, along);
+  double t = dot(samples.position[samples.at[samples.start[a + 1] - 1]] - from, along);
+  if (s > t) swap_values(s, t);
+  const double common = smaller(t, whole) - larger(s, 0.0);
+  return common > 0.5 * smaller(whole, t - s);
+}
+
+static Status add_face(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                       const StraightLines& lines, const Plane& plane, uint32_t seed,
+                       FaceFlood* flood, FlatFaces* faces) {
+  for (const uint32_t t : flood->member) {
+    faces->part[t] = faces->polygon.back() != 0 ? FlatPart::polygon : FlatPart::disc;
+    TRY(faces->triangle.push(t));
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
+      if (!on_rim(complex, curves, lines, e)) continue;
+      const uint32_t sides = sides_of(complex, *flood, plane, seed, e);
+      if (sides == 3) continue;
+      if (curves.on_curve(e)) {
+        TRY(add_rim(complex, plane, flood->arc_of[e], e, sides, seed, flood, faces));
+        continue;
+      }
+      const uint32_t* const v = &complex.edge[2 * size_t{e}];
+      const uint32_t line = lines.common(v[0], v[1]);
+      for (uint32_t i = lines.arc_start[line]; i < lines.arc_start[line + 1]; ++i) {
+        if (!runs_along(complex, samples, lines.arc[i], e)) continue;
+        TRY(add_rim(complex, plane, lines.arc[i], e, sides, seed, flood, faces));
+      }
+    }
+  }
+  TRY(faces->normal.push(plane.normal));
+  TRY(faces->start.push(static_cast<uint32_t>(faces->triangle.size())));
+  return faces->rim_start.push(static_cast<uint32_t>(faces->rim.size()));
+}
+
+/* The plane of an arc that is not straight; none if it has no plane or is not to be looked at. */
+static bool plane_of_arc(const Complex& complex, const Samples& samples, uint32_t a, Plane* plane) {
+  const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
+  const auto at = [&](uint32_t i) { return samples.position[samples.at[i]]; };
+  Vec3 normal;
+  for (uint32_t i = first + 1; i + 1 <= last; ++i) {
+    normal += cross(at(i) - at(first), at(i + 1) - at(first));
+  }
+  *plane = {at(first), unit(normal)};
+  for (uint32_t i = first; i <= last; ++i) {
+    const double off = dot(at(i) - plane->at, plane->normal);
+    if (std::fabs(off) > 0.1 * k_flat * complex.diagonal) return false;
+  }
+  return dot(normal, normal) > 0.0;
+}
+
+/* Triangles at straight arcs, and those in the planes of others, which every face has, largest */
+/* first. */
+static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                         const StraightLines& lines, Array<double>* area, Array<uint32_t>* seeds) {
+  TRY(area->assign(complex.triangle_count(), 0.0));
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    Plane plane;
+    const bool straight = lines.is_straight(a);
+    if (!straight && !plane_of_arc(complex, samples, a, &plane)) continue;
+    for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
+      if (curves.edge_of[i] == k_none) continue;
+      for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
+        if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
+        if (!straight && !in_plane(complex, plane, t)) continue;
+        (*area)[t] = twice_area(complex, t);
+        TRY(seeds->push(t));
+      }
+    }
+  }
+  sort(seeds->span(), [&](uint32_t a, uint32_t b) {
+    return (*area)[a] != (*area)[b] ? (*area)[a] > (*area)[b] : a < b;
+  });
+  return {};
+}
+
+static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
+                         FaceFlood* flood) {
+  for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
+    const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
+    if (first == last) continue;
+    const uint32_t arc = lines.arc[first];
+    const Vec3 from = complex.point[complex.same_as[samples.at[samples.start[arc]]]];
+    const Vec3 along =
+        complex.point[complex.same_as[samples.at[samples.start[arc + 1] - 1]]] - from;
+    Vec3 low = from, high = from;
+    for (uint32_t i = first; i < last; ++i) {
+      const uint32_t a = lines.arc[i];
+      for (uint32_t end = 0; end < 2; ++end) {
+        const uint32_t at = end == 0 ? samples.start[a] : samples.start[a + 1] - 1;
+        const Vec3& p = complex.point[complex.same_as[samples.at[at]]];
+        if (dot(p - low, along) < 0.0) low = p;
+        if (dot(p - high, along) > 0.0) high = p;
+      }
+    }
+    TRY(flood->line_end.push(low));
+    TRY(flood->line_end.push(high));
+  }
+  return flood->plane_line.reserve(flood->line_end.size());
+}
+
+static Status list_curved(const Complex& complex, const Samples& samples,
+                          const StraightLines& lines, FaceFlood* flood) {
+  Array<Vec3> point(flood->curved.context());
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    if (lines.is_straight(a)) continue;
+    for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
+      TRY(flood->curved.push(complex.same_as[samples.at[i]]));
+      TRY(point.push(complex.point[flood->curved.back()]));
+    }
+  }
+  return flood->grid.build(point.span());
+}
+
+static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                          const StraightLines& lines, FaceFlood* flood, FlatFaces* faces) {
+  TRY(faces->part.assign(complex.triangle_count(), FlatPart::none));
+  TRY(faces->start.push(0));
+  TRY(faces->rim_start.push(0));
+  TRY(list_lines(complex, samples, lines, flood));
+  TRY(list_curved(complex, samples, lines, flood));
+  TRY(flood->crossed.assign(complex.triangle_count(), Crossed::unknown));
+  TRY(link_segments(complex, curves, flood));
+  TRY(flood->mark.assign(complex.triangle_count(), k_none));
+  TRY(flood->visits.assign(complex.triangle_count(), 0));
+  TRY(flood->seen.assign(complex.point.size(), 0));
+  TRY(flood->border_edge.resize(complex.point.size()));
+  return mark_arcs(complex, samples, curves, lines, flood);
+}
+
+static Status forget_faces(FlatFaces* faces) {
+  faces->start.clear();
+  faces->triangle.clear();
+  faces->normal.clear();
+  faces->polygon.clear();
+  faces->rim_start.clear();
+  faces->rim.clear();
+  for (FlatPart& part : faces->part) part = FlatPart::none;
+  return {};
+}
+
+Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
+                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
+  constexpr size_t k_work_per_checkpoint = 1u << 17;
+  FaceFlood flood(context);
+  Array<double> area(context);
+  Array<uint32_t> seeds(context);
+  TRY(start_faces(complex, samples, curves, lines, &flood, faces));
+  TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
+  size_t next_checkpoint = k_work_per_checkpoint;
+  for (const uint32_t seed : seeds) {
+    if (flood.visits[seed] != 0) continue;
+    const Plane plane = plane_of(complex, seed);
+    if (is_crossed(complex, lines, plane, seed, seed, &flood)) continue;
+    TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
+    flood.work += flood.member.size();
+    if (flood.work > k_most_work) return forget_faces(faces);
+    if (flood.work > next_checkpoint) {
+      TRY(context.checkpoint());
+      next_checkpoint = flood.work + k_work_per_checkpoint;
+    }
+    TRY(close_face(complex, curves, lines, plane, seed, &flood));
+    if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
+    TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
+    TRY(add_face(complex, samples, curves, lines, plane, seed, &flood, faces));
+  }
+  if (faces->size() == 0) return {};
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (is_line(complex, curves, lines, t)) faces->part[t] = FlatPart::line;
+  }
+  return {};
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/flat_faces.cpp ======== */
+
+/* ======== begin src/flow/persistence.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_least_ratio = 1.0 + 1e-6;
+static constexpr double k_flat_share = 0.98;  /* of the squared radius: one in a hundred of it */
+
+/* Components of the complement of the balls as the radius shrinks: union-find over the tetrahedra */
+/* and, as the last node, the outside. Each root knows the maximum of its component. */
+struct VoidForest {
+  explicit VoidForest(Context& context) : parent(context), maximum(context) {}
+
+  Array<uint32_t> parent;
+  Array<uint32_t> maximum;
+
+  uint32_t root_of(uint32_t node) {
+    while (parent[node] != node) {
+      parent[node] = parent[parent[node]];
+      node = parent[node];
+    }
+    return node;
+  }
+};
+
+static bool lower_maximum(const Complex& complex, uint32_t a, uint32_t b) {
+  const uint32_t outside = complex.tet_count();
+  if (a == outside || b == outside) return b == outside && a != outside;
+  const double fa = complex.tet_value[a];
+  const double fb = complex.tet_value[b];
+  return fa != fb ? fa < fb : a < b;
+}
+
+/* Values are not negative, so the order of their bits is theirs; turned over, the greatest is */
+/* first. */
+static uint64_t descending_bits(double value) {
+  uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return ~bits;
+}
+
+static bool is_in_turn(Pass pass, Pass now) {
+  return pass == now || (pass == Pass::flat && now == Pass::by_radius);
+}
+
+/* By their turn, then decreasing value, then number. */
+static Status sort_triangles(Context& context, const Complex& complex, Span<const Pass> turn,
+                             Array<BitsKey>* keys, Array<uint32_t>* order) {
+  const uint32_t count = complex.triangle_count();
+  TRY(keys->resize(count));
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t t = count - 1 - i;
+    const bool flat = !turn.empty() && turn[t] == Pass::flat;
+    const double value = complex.triangle_value[t];
+    (*keys)[i] = {descending_bits(flat ? k_flat_share * value : value), t};
+  }
+  TRY(radix_sort(context, keys));
+  TRY(order->reserve(count));
+  constexpr Pass k_turns[4] = {Pass::first, Pass::by_radius, Pass::late, Pass::last};
+  for (const Pass now : k_turns) {
+    if (turn.empty() && now != Pass::by_radius) continue;
+    for (const BitsKey& key : *keys) {
+      if (turn.empty() || is_in_turn(turn[key.index], now)) order->push_reserved(key.index);
+    }
+  }
+  return {};
+}
+
+static Void describe_void(const Complex& complex, uint32_t creator, uint32_t maximum) {
+  const double cap = 0.375 * complex.diagonal * complex.diagonal;
+  const double f = complex.triangle_value[creator];
+  const double filling = smaller(complex.tet_value[maximum], cap);
+  const double capped = smaller(f, cap);
+  const double ratio = capped > 0.0 ? std::sqrt(filling / capped) : 1.0;
+  return {creator, maximum, std::sqrt(f), std::sqrt(filling), ratio, false};
+}
+
+static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
+                         Span<const Pass> turn, Persistence* persistence) {
+  Array<Void>& voids = persistence->voids;
+  voids.clear();
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (maximum_of[t] == k_none) continue;
+    Void one = describe_void(complex, t, maximum_of[t]);
+    one.held = !turn.empty() && turn[t] == Pass::last;
+    if (one.held || one.ratio > k_least_ratio) TRY(voids.push(one));
+  }
+  sort(voids.span(), [](const Void& a, const Void& b) {
+    if (a.held != b.held) return a.held;
+    return a.ratio != b.ratio ? a.ratio > b.ratio : a.creator < b.creator;
+  });
+  TRY(persistence->void_of.assign(complex.triangle_count(), k_none));
+  for (uint32_t i = 0; i < voids.size(); ++i) persistence->void_of[voids[i].creator] = i;
+  return {};
+}
+
+Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
+                        Span<const Pass> turn) {
+  constexpr size_t k_triangles_per_checkpoint = 1u << 16;
+  const uint32_t outside = complex.tet_count();
+  Array<BitsKey> keys(context);
+  Array<uint32_t> order(context), maximum_of(context);
+  VoidForest voids(context);
+  TRY(sort_triangles(context, complex, turn, &keys, &order));
+  TRY(maximum_of.assign(complex.triangle_count(), k_none));
+  TRY(persistence->creator.assign(complex.triangle_count(), 0));
+  TRY(voids.parent.resize(outside + 1));
+  TRY(voids.maximum.resize(outside + 1));
+  for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
+  for (size_t i = 0; i < order.size(); ++i) {
+    if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
+    const uint32_t t = order[i];
+    const uint32_t a = complex.triangle_side[2 * t];
+    const uint32_t b = complex.triangle_side[2 * t + 1];
+    uint32_t low = voids.root_of(a == k_none ? outside : a);
+    uint32_t high = voids.root_of(b == k_none ? outside : b);
+    if (low == high) continue;
+    if (lower_maximum(complex, voids.maximum[high], voids.maximum[low])) swap_values(low, high);
+    persistence->creator[t] = 1;
+    maximum_of[t] = voids.maximum[low];
+    voids.parent[low] = high;
+  }
+  return list_voids(complex, maximum_of.span(), turn, persistence);
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/persistence.cpp ======== */
+
+/* ======== begin src/flow/flat_cells.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_cost_of_flat = 1.5;  /* of a curve, where one face too many costs 1 */
+
+namespace {
+
+enum class FaceState : uint8_t { inner, parting, dangling };
+
+/* Union-find over tetrahedra and the outside; a root is the least of its members. */
+struct CellForest {
+  Array<uint32_t> parent;
+  Array<uint8_t> solid;  /* of each root: some tetrahedron of it is not flat */
+
+  explicit CellForest(Context& context) : parent(context), solid(context) {}
+  uint32_t root_of(uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  }
+  void join(uint32_t a, uint32_t b) {
+    a = root_of(a);
+    b = root_of(b);
+    const uint32_t low = a < b ? a : b;
+    solid[low] = static_cast<uint8_t>(solid[a] | solid[b]);
+    parent[a < b ? b : a] = low;
+  }
+};
+
+/* The faces between two cells; what it would gain to merge these. */
+struct CellPair {
+  uint32_t low, high;  /* roots */
+  uint32_t first, last;
+  double gain;
+};
+
+struct FacePlace {
+  uint32_t low, high, face;
+};
+
+struct Merging {
+  const StraightLines* lines;
+  CellForest forest;
+  Array<uint32_t> side;                /* of each face two cells */
+  Array<FaceState> state;              /* of each face */
+  Array<uint32_t> arc_start, arc_rim;  /* for each arc its places in FlatFaces::rim */
+  Array<uint32_t> face_of_rim;
+  Array<double> arc_length;
+  Array<FacePlace> place;
+  Array<CellPair> pair;
+  Array<uint32_t> arc_stamp;
+  Array<uint8_t> touched;  /* of each cell, in this pass */
+
+  Merging(Context& context, const StraightLines& straight)
+      : lines(&straight),
+        forest(context),
+        side(context),
+        state(context),
+        arc_start(context),
+        arc_rim(context),
+        face_of_rim(context),
+        arc_length(context),
+        place(context),
+        pair(context),
+        arc_stamp(context),
+        touched(context) {}
+};
+
+struct CurveFault {
+  uint32_t faces;
+  bool flat;  /* the two faces there are */
+};
+
+}  /* namespace */
+
+static uint32_t cell_side(const Complex& complex, uint32_t triangle, uint32_t side) {
+  const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
+  return t == k_none ? complex.tet_count() : t;
+}
+
+static Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  return cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
+}
+
+/* Lower over its largest face than two layers of a flat face can be. */
+static bool is_flat_tet(const Complex& complex, uint32_t t) {
+  double largest = 0.0;
+  for (uint32_t k = 0; k < 4; ++k) {
+    const Vec3 n = cross_of_triangle(complex, complex.tet_triangle[4 * size_t{t} + k]);
+    largest = larger(largest, dot(n, n));
+  }
+  const uint32_t* const v = &complex.tet[4 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  const double six =
+      dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
+  return six <= 2.0 * k_flat * complex.diagonal * std::sqrt(largest);
+}
+
+/* Cells between faces; what is flat all through, between the layers of a face, joins the cell */
+/* beside it. */
+static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces,
+                                  CellForest* forest) {
+  const uint32_t outside = complex.tet_count();
+  TRY(forest->parent.resize(size_t{outside} + 1));
+  TRY(forest->solid.assign(size_t{outside} + 1, 0));
+  for (uint32_t i = 0; i <= outside; ++i) {
+    forest->parent[i] = i;
+    forest->solid[i] = i == outside || !is_flat_tet(complex, i);
+  }
+  Array<uint32_t> separating(forest->parent.context());
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (faces.part[t] == FlatPart::polygon || faces.part[t] == FlatPart::line) {
+      TRY(separating.push(t));
+    } else {
+      forest->join(cell_side(complex, t, 0), cell_side(complex, t, 1));
+    }
+  }
+  sort(separating.span(), [&](uint32_t a, uint32_t b) {
+    const double fa = complex.triangle_value[a], fb = complex.triangle_value[b];
+    return fa != fb ? fa > fb : a > b;
+  });
+  for (const uint32_t t : separating) {
+    const uint32_t a = forest->root_of(cell_side(complex, t, 0));
+    const uint32_t b = forest->root_of(cell_side(complex, t, 1));
+    if (forest->solid[a] == 0 || forest->solid[b] == 0) forest->join(a, b);
+  }
+  return {};
+}
+
+/* The cells before and behind each face, as its largest triangle between two cells says. */
+static Status find_face_sides(const Complex& complex, const FlatFaces& faces, Merging* merging) {
+  CellForest& forest = merging->forest;
+  TRY(merging->side.resize(2 * size_t{faces.size()}));
+  TRY(merging->state.resize(faces.size()));
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    double largest = 0.0;
+    uint32_t* const side = &merging->side[2 * size_t{f}];
+    side[0] = side[1] = k_none;
+    merging->state[f] = FaceState::inner;
+    if (faces.polygon[f] == 0) continue;
+    for (uint32_t i = faces.start[f]; i < faces.start[f + 1]; ++i) {
+      const uint32_t t = faces.triangle[i];
+      const uint32_t a = forest.root_of(cell_side(complex, t, 0));
+      const uint32_t b = forest.root_of(cell_side(complex, t, 1));
+      const Vec3 n = cross_of_triangle(complex, t);
+      if (a == b || !(dot(n, n) > largest)) continue;
+      largest = dot(n, n);
+      const bool up = dot(n, faces.normal[f]) > 0.0;
+      side[0] = up ? b : a;
+      side[1] = up ? a : b;
+    }
+    merging->state[f] = side[0] == k_none ? FaceState::dangling : FaceState::parting;
+  }
+  return {};
+}
+
+static Status link_arcs(const Samples& samples, const FlatFaces& faces, Merging* merging) {
+  const size_t arcs = samples.start.size() - 1;
+  TRY(merging->arc_start.assign(arcs + 1, 0));
+  TRY(merging->arc_rim.resize(faces.rim.size()));
+  TRY(merging->face_of_rim.resize(faces.rim.size()));
+  TRY(merging->arc_length.resize(arcs));
+  TRY(merging->arc_stamp.assign(arcs, k_none));
+  for (uint32_t a = 0; a < arcs; ++a) {
+    merging->arc_length[a] = samples.along[samples.start[a + 1] - 1];
+  }
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+      merging->face_of_rim[i] = f;
+      ++merging->arc_start[faces.rim[i].arc];
+    }
+  }
+  starts_from_counts(merging->arc_start.span());
+  for (uint32_t i = 0; i < faces.rim.size(); ++i) {
+    merging->arc_rim[merging->arc_start[faces.rim[i].arc]++] = i;
+  }
+  for (size_t a = arcs; a > 0; --a) merging->arc_start[a] = merging->arc_start[a - 1];
+  merging->arc_start[0] = 0;
+  return {};
+}
+
+/* Two faces at a curve that lie in one plane, on both sides of it. */
+static bool continue_flat(const FlatFaces& faces, const Merging& merging, uint32_t i, uint32_t k) {
+  const Vec3& a = faces.normal[merging.face_of_rim[i]];
+  const Vec3& b = faces.normal[merging.face_of_rim[k]];
+  if (std::fabs(dot(a, b)) < k_same_line) return false;
+  return !merging.lines->is_straight(faces.rim[i].arc) ||
+         dot(faces.rim[i].into, faces.rim[k].into) < 0.0;
+}
+
+/* How many of the faces at a curve count, and whether they are two that are flat. */
+template <typename Counts>
+static CurveFault fault_of(const FlatFaces& faces, const Merging& merging, uint32_t arc,
+                           const Counts& counts) {
+  CurveFault fault = {0, false};
+  uint32_t at[2] = {};
+  for (uint32_t i = merging.arc_start[arc]; i < merging.arc_start[arc + 1]; ++i) {
+    const uint32_t rim = merging.arc_rim[i];
+    if (!counts(merging.face_of_rim[rim])) continue;
+    if (fault.faces < 2) at[fault.faces] = rim;
+    ++fault.faces;
+  }
+  fault.flat = fault.faces == 2 && continue_flat(faces, merging, at[0], at[1]);
+  return fault;
+}
+
+static double cost_of(const CurveFault& fault) {
+  return fault.faces > 2 ? 1.0 : fault.flat ? k_cost_of_flat : 0.0;
+}
+
+/* What the curves gain if the cells on both sides of these faces become one; below zero if one */
+/* would have no faces left. */
+static double gain_of(const FlatFaces& faces, const CellPair& pair, Merging* merging) {
+  double gain = 0.0;
+  const auto parts = [&](uint32_t f) { return merging->state[f] == FaceState::parting; };
+  const auto remains = [&](uint32_t f) {
+    if (!parts(f)) return false;
+    const uint32_t a = merging->forest.root_of(merging->side[2 * size_t{f}]);
+    const uint32_t b = merging->forest.root_of(merging->side[2 * size_t{f} + 1]);
+    return (a < b ? a : b) != pair.low || (a < b ? b : a) != pair.high;
+  };
+  for (uint32_t p = pair.first; p < pair.last; ++p) {
+    const uint32_t f = merging->place[p].face;
+    for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+      const uint32_t arc = faces.rim[i].arc;
+      if (merging->arc_stamp[arc] == pair.first) continue;
+      merging->arc_stamp[arc] = pair.first;
+      const CurveFault now = fault_of(faces, *merging, arc, parts);
+      const CurveFault then = fault_of(faces, *merging, arc, remains);
+      if (then.faces < 2 && then.faces < now.faces) return -1.0;
+      gain += merging->arc_length[arc] * (cost_of(now) - cost_of(then));
+    }
+  }
+  return gain;
+}
+
+/* The pairs of cells that faces part, each with the faces between them. */
+static Status list_pairs(const FlatFaces& faces, Merging* merging) {
+  merging->place.clear();
+  merging->pair.clear();
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    if (merging->state[f] != FaceState::parting) continue;
+    const uint32_t a = merging->forest.root_of(merging->side[2 * size_t{f}]);
+    const uint32_t b = merging->forest.root_of(merging->side[2 * size_t{f} + 1]);
+    if (a == b) {
+      merging->state[f] = FaceState::inner;
+      continue;
+    }
+    TRY(merging->place.push({a < b ? a : b, a < b ? b : a, f}));
+  }
+  sort(merging->place.span(), [](const FacePlace& a, const FacePlace& b) {
+    if (a.low != b.low) return a.low < b.low;
+    return a.high != b.high ? a.high < b.high : a.face < b.face;
+  });
+  for (uint32_t i = 0; i < merging->place.size(); ++i) {
+    const FacePlace& p = merging->place[i];
+    if (!merging->pair.empty() && merging->pair.back().low == p.low &&
+        merging->pair.back().high == p.high) {
+      merging->pair.back().last = i + 1;
+    } else {
+      TRY(merging->pair.push({p.low, p.high, i, i + 1, 0.0}));
+    }
+  }
+  return {};
+}
+
+/* In passes; a cell takes part in one merger a pass, for that changes what others would gain. */
+static Status merge_cells(Context& context, const FlatFaces& faces, Merging* merging) {
+  for (bool any = true; any;) {
+    any = false;
+    TRY(context.checkpoint());
+    TRY(list_pairs(faces, merging));
+    for (uint32_t& stamp : merging->arc_stamp) stamp = k_none;
+    for (CellPair& pair : merging->pair) {
+      pair.gain = gain_of(faces, pair, merging);
+      merging->touched[pair.low] = merging->touched[pair.high] = 0;
+    }
+    sort(merging->pair.span(), [](const CellPair& a, const CellPair& b) {
+      return a.gain != b.gain ? a.gain > b.gain : a.first < b.first;
+    });
+    for (const CellPair& pair : merging->pair) {
+      if (!(pair.gain > 0.0)) break;
+      if (merging->touched[pair.low] != 0 || merging->touched[pair.high] != 0) continue;
+      merging->touched[pair.low] = merging->touched[pair.high] = 1;
+      merging->forest.join(pair.low, pair.high);
+      any = true;
+    }
+  }
+  return {};
+}
+
+/* Those that part no cells, as a curved face is missing, but have no rival at any of their curves. */
+static Status keep_dangling(const FlatFaces& faces, Merging* merging) {
+  Array<uint8_t> crowded(merging->arc_stamp.context());
+  const auto counts = [&](uint32_t f) { return merging->state[f] != FaceState::inner; };
+  TRY(crowded.resize(merging->arc_length.size()));
+  for (uint32_t a = 0; a < crowded.size(); ++a) {
+    crowded[a] = fault_of(faces, *merging, a, counts).faces > 2;
+  }
+  for (uint32_t i = 0; i < faces.rim.size(); ++i) {
+    const uint32_t f = merging->face_of_rim[i];
+    if (merging->state[f] == FaceState::dangling && crowded[faces.rim[i].arc] != 0) {
+      merging->state[f] = FaceState::inner;
+    }
+  }
+  return {};
+}
+
+static Status set_turns(const Complex& complex, const FlatFaces& faces, Merging* merging,
+                        Array<Pass>* turn) {
+  TRY(turn->assign(complex.triangle_count(), Pass::by_radius));
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    const FaceState state = merging->state[f];
+    const uint32_t* const side = &merging->side[2 * size_t{f}];
+    const bool merged = state == FaceState::inner && side[0] != k_none;
+    const Pass pass = merged ? Pass::first : state == FaceState::dangling ? Pass::late : Pass::flat;
+    for (uint32_t i = faces.start[f]; i < faces.start[f + 1]; ++i) {
+      (*turn)[faces.triangle[i]] = pass;
+    }
+  }
+  /* Whatever parts two cells now, lines along curves among it. */
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (faces.part[t] == FlatPart::none || faces.part[t] == FlatPart::disc) continue;
+    const uint32_t a = merging->forest.root_of(cell_side(complex, t, 0));
+    const uint32_t b = merging->forest.root_of(cell_side(complex, t, 1));
+    if (a != b) (*turn)[t] = Pass::last;
+  }
+  return {};
+}
+
+/* Marks the edges of curves where two faces that stay make a crease, or one waits for another, and */
+/* the chords over them. */
+static void mark_needs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                       const FlatFaces& faces, const Merging& merging, Span<Need> need) {
+  const auto stays = [&](uint32_t f) { return merging.state[f] != FaceState::inner; };
+  for (uint32_t a = 0; a < merging.arc_length.size(); ++a) {
+    const CurveFault fault = fault_of(faces, merging, a, stays);
+    if (fault.faces == 0 || fault.flat) continue;
+    for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
+      if (curves.edge_of[i] == k_none) continue;
+      need[curves.edge_of[i]] = fault.faces == 1 ? Need::waiting : Need::settled;
+    }
+  }
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    const uint32_t middle = curves.chord_middle[e];
+    if (curves.on_curve(e) || middle == k_none) continue;
+    const Need a = need[find_edge(complex, complex.edge[2 * size_t{e}], middle)];
+    if (a == need[find_edge(complex, middle, complex.edge[2 * size_t{e} + 1])]) need[e] = a;
+  }
+}
+
+Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
+                       const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
+                       FlatCells* cells) {
+  cells->turn.clear();
+  TRY(cells->need.assign(complex.edge_count(), Need::open));
+  if (faces.size() == 0) return {};
+  Merging merging(context, lines);
+  TRY(find_cells_of_faces(complex, faces, &merging.forest));
+  TRY(find_face_sides(complex, faces, &merging));
+  TRY(link_arcs(samples, faces, &merging));
+  TRY(merging.touched.assign(merging.forest.parent.size(), 0));
+  TRY(merge_cells(context, faces, &merging));
+  TRY(keep_dangling(faces, &merging));
+  TRY(set_turns(complex, faces, &merging, &cells->turn));
+  mark_needs(complex, samples, curves, faces, merging, cells->need.span());
+  return {};
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/flat_cells.cpp ======== */
 
 /* ======== begin src/flow/sheet.cpp ======== */
 namespace wireskin::flow {
@@ -12921,400 +14938,14 @@ Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/sheet.cpp ======== */
 
-/* ======== begin src/flow/flat_faces.cpp ======== */
-namespace wireskin::flow {
-
-static constexpr double k_flat = 1e-3;          /* of the diagonal, off the plane */
-static constexpr double k_straight = 0.01;      /* of an arc's length, off its chord */
-static constexpr double k_least_corner = 0.94;  /* cosine of what a polygon turns at a corner */
-static constexpr double k_same_line = 0.9985;   /* of what it turns elsewhere */
-static constexpr uint8_t k_most_visits = 4;
-
-namespace {
-
-struct Plane {
-  Vec3 at, normal;
-};
-
-struct FaceFlood {
-  Array<uint32_t> mark;               /* of each triangle: the seed whose face it was last in */
-  Array<uint8_t> visits;              /* of each triangle */
-  Array<uint32_t> member;             /* the face */
-  Array<uint8_t> straight;            /* of each edge: on a straight arc */
-  Array<uint32_t> line;               /* of each vertex inside a straight arc: the arc */
-  Array<uint32_t> line_end;           /* of each arc, two */
-  Array<uint32_t> seen, border_edge;  /* of each vertex: its edges on the border, and one of them */
-
-  explicit FaceFlood(Context& context)
-      : mark(context),
-        visits(context),
-        member(context),
-        straight(context),
-        line(context),
-        line_end(context),
-        seen(context),
-        border_edge(context) {}
-};
-
-}  /* namespace */
-
-static double twice_area(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
-}
-
-static Plane plane_of(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return {a, unit(cross(complex.point[v[1]] - a, complex.point[v[2]] - a))};
-}
-
-static bool in_plane(const Complex& complex, const Plane& plane, uint32_t t) {
-  for (uint32_t k = 0; k < 3; ++k) {
-    const Vec3& p = complex.point[complex.triangle[3 * size_t{t} + k]];
-    if (std::fabs(dot(p - plane.at, plane.normal)) > k_flat * complex.diagonal) return false;
-  }
-  return true;
-}
-
-static bool stays_on_line(const Samples& samples, uint32_t first, uint32_t last) {
-  const Vec3& p = samples.position[samples.at[first]];
-  const Vec3 chord = samples.position[samples.at[last]] - p;
-  const Vec3 along = unit(chord);
-  for (uint32_t i = first + 1; i < last; ++i) {
-    const Vec3 to = samples.position[samples.at[i]] - p;
-    if (length(to - dot(to, along) * along) > k_straight * length(chord)) return false;
-  }
-  return samples.at[first] != samples.at[last];
-}
-
-/* Marks the edges and the vertices of straight arcs. */
-static Status mark_straight(const Complex& complex, const Samples& samples,
-                            const CurveEdges& curves, FaceFlood* flood) {
-  TRY(flood->straight.assign(complex.edge_count(), 0));
-  TRY(flood->line.assign(complex.point.size(), k_none));
-  TRY(flood->line_end.assign(2 * samples.start.size(), k_none));
-  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
-    const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
-    if (!stays_on_line(samples, first, last)) continue;
-    flood->line_end[2 * size_t{a}] = complex.same_as[samples.at[first]];
-    flood->line_end[2 * size_t{a} + 1] = complex.same_as[samples.at[last]];
-    for (uint32_t i = first; i < last; ++i) {
-      if (curves.edge_of[i] != k_none) flood->straight[curves.edge_of[i]] = 1;
-      if (i > first) flood->line[complex.same_as[samples.at[i]]] = a;
-    }
-  }
-  return {};
-}
-
-static Vec3 edge_vector(const Complex& complex, uint32_t e, uint32_t from) {
-  const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
-  return unit(a == from ? complex.point[b] - complex.point[a]
-                        : complex.point[a] - complex.point[b]);
-}
-
-/* Whether u, too, is on the straight arc that v is inside of. */
-static bool on_line_of(const FaceFlood& flood, uint32_t v, uint32_t u) {
-  const uint32_t line = flood.line[v];
-  return line != k_none && (flood.line[u] == line || flood.line_end[2 * size_t{line}] == u ||
-                            flood.line_end[2 * size_t{line} + 1] == u);
-}
-
-/* Edges of the complex that belong to the curves, or pass over samples of a straight one. */
-static bool on_rim(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
-                   uint32_t e) {
-  const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
-  return curves.on_curve(e) || on_line_of(flood, a, b) || on_line_of(flood, b, a);
-}
-
-/* All corners on one straight line: such a triangle lies in every plane through it. */
-static bool is_line(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
-                    uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const uint32_t* const edge = &complex.triangle_edge[3 * size_t{t}];
-  for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t e = edge[(k + 1) % 3], f = edge[(k + 2) % 3];
-    if (curves.on_curve(e) && curves.on_curve(f)) {
-      if (dot(edge_vector(complex, e, v[k]), edge_vector(complex, f, v[k])) < -k_same_line) {
-        return true;
-      }
-    }
-    if (on_line_of(flood, v[k], v[(k + 1) % 3]) && on_line_of(flood, v[k], v[(k + 2) % 3])) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/* Which side of an edge, within the plane, a triangle lies on. */
-static bool on_left(const Complex& complex, const Plane& plane, uint32_t e, uint32_t t) {
-  const Vec3& a = complex.point[complex.edge[2 * size_t{e}]];
-  const Vec3& b = complex.point[complex.edge[2 * size_t{e} + 1]];
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3 middle =
-      (1.0 / 3.0) * (complex.point[v[0]] + complex.point[v[1]] + complex.point[v[2]]);
-  return dot(cross(b - a, middle - a), plane.normal) > 0.0;
-}
-
-/* The sides of an edge that the face takes up, a bit each. */
-static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const Plane& plane,
-                         uint32_t seed, uint32_t e) {
-  uint32_t sides = 0;
-  for (const uint32_t t : complex.triangles_of(e)) {
-    if (flood.mark[t] == seed) sides |= on_left(complex, plane, e, t) ? 1u : 2u;
-  }
-  return sides;
-}
-
-static Status flood_face(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
-                         const Plane& plane, uint32_t seed, FaceFlood* flood) {
-  flood->member.clear();
-  const auto add = [&](uint32_t t) {
-    flood->mark[t] = seed;
-    ++flood->visits[t];
-    return flood->member.push(t);
-  };
-  TRY(add(seed));
-  for (size_t i = 0; i < flood->member.size(); ++i) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
-      if (on_rim(complex, curves, *flood, e)) continue;
-      for (const uint32_t t : complex.triangles_of(e)) {
-        const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
-        if (done || sheet.in[t] == 0 || !in_plane(complex, plane, t)) continue;
-        if (!is_line(complex, curves, *flood, t)) TRY(add(t));
-      }
-    }
-  }
-  return {};
-}
-
-static bool is_closed(const Complex& complex, const CurveEdges& curves, const FaceFlood& flood,
-                      const Plane& plane, uint32_t seed) {
-  for (const uint32_t t : flood.member) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (on_rim(complex, curves, flood, e)) continue;
-      if (sides_of(complex, flood, plane, seed, e) != 3) return false;
-    }
-  }
-  return true;
-}
-
-/* Notes an edge of the border at both its ends; false if it makes a bend with the one before. */
-static bool turns_well(const Complex& complex, uint32_t e, FaceFlood* flood) {
-  bool well = true;
-  for (uint32_t end = 0; end < 2; ++end) {
-    const uint32_t v = complex.edge[2 * size_t{e} + end];
-    if (flood->seen[v]++ == 0) {
-      flood->border_edge[v] = e;
-      continue;
-    }
-    const double cosine =
-        -dot(edge_vector(complex, e, v), edge_vector(complex, flood->border_edge[v], v));
-    well = well && (cosine > k_same_line || cosine < k_least_corner);
-  }
-  return well;
-}
-
-static bool is_polygon(const Complex& complex, const CurveEdges& curves, const Plane& plane,
-                       uint32_t seed, FaceFlood* flood) {
-  double whole = 0.0, straight = 0.0;
-  bool corners = true;
-  for (const uint32_t t : flood->member) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (!on_rim(complex, curves, *flood, e)) continue;
-      if (sides_of(complex, *flood, plane, seed, e) == 3) continue;
-      const double size = length(complex.point[complex.edge[2 * size_t{e}]] -
-                                 complex.point[complex.edge[2 * size_t{e} + 1]]);
-      whole += size;
-      if (curves.on_curve(e) && flood->straight[e] == 0) continue;
-      straight += size;
-      corners = turns_well(complex, e, flood) && corners;
-    }
-  }
-  for (const uint32_t t : flood->member) {
-    for (uint32_t k = 0; k < 3; ++k) flood->seen[complex.triangle[3 * size_t{t} + k]] = 0;
-  }
-  return corners && straight >= 0.5 * whole;
-}
-
-/* Triangles at curves, which every face has, largest first. */
-static Status list_seeds(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
-                         const FaceFlood& flood, Array<double>* area, Array<uint32_t>* seeds) {
-  TRY(area->resize(complex.triangle_count()));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (sheet.in[t] == 0) continue;
-    (*area)[t] = twice_area(complex, t);
-    bool at_curve = false;
-    for (uint32_t k = 0; k < 3; ++k) {
-      at_curve = at_curve || curves.on_curve(complex.triangle_edge[3 * size_t{t} + k]);
-    }
-    if (at_curve && !is_line(complex, curves, flood, t)) TRY(seeds->push(t));
-  }
-  sort(seeds->span(), [&](uint32_t a, uint32_t b) {
-    return (*area)[a] != (*area)[b] ? (*area)[a] > (*area)[b] : a < b;
-  });
-  return {};
-}
-
-Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const Sheet& sheet, Array<Flatness>* flatness) {
-  constexpr size_t k_members_per_checkpoint = 1u << 15;
-  FaceFlood flood(context);
-  Array<double> area(context);
-  Array<uint32_t> seeds(context);
-  TRY(flatness->assign(complex.triangle_count(), Flatness::none));
-  TRY(flood.mark.assign(complex.triangle_count(), k_none));
-  TRY(flood.visits.assign(complex.triangle_count(), 0));
-  TRY(flood.seen.assign(complex.point.size(), 0));
-  TRY(flood.border_edge.resize(complex.point.size()));
-  TRY(mark_straight(complex, samples, curves, &flood));
-  TRY(list_seeds(complex, curves, sheet, flood, &area, &seeds));
-  size_t looked_at = 0;
-  for (const uint32_t seed : seeds) {
-    if (flood.visits[seed] != 0) continue;
-    const Plane plane = plane_of(complex, seed);
-    TRY(flood_face(complex, curves, sheet, plane, seed, &flood));
-    looked_at += flood.member.size();
-    if (looked_at > k_members_per_checkpoint) {
-      TRY(context.checkpoint());
-      looked_at = 0;
-    }
-    if (!is_closed(complex, curves, flood, plane, seed)) continue;
-    const bool polygon = is_polygon(complex, curves, plane, seed, &flood);
-    for (const uint32_t t : flood.member) {
-      (*flatness)[t] = polygon ? Flatness::polygon : Flatness::plane;
-    }
-  }
-  return {};
-}
-
-}  /* namespace wireskin::flow */
-/* ======== end src/flow/flat_faces.cpp ======== */
-
-/* ======== begin src/flow/persistence.cpp ======== */
-namespace wireskin::flow {
-
-static constexpr double k_least_ratio = 1.0 + 1e-6;
-
-/* Components of the complement of the balls as the radius shrinks: union-find over the tetrahedra */
-/* and, as the last node, the outside. Each root knows the maximum of its component. */
-struct VoidForest {
-  explicit VoidForest(Context& context) : parent(context), maximum(context) {}
-
-  Array<uint32_t> parent;
-  Array<uint32_t> maximum;
-
-  uint32_t root_of(uint32_t node) {
-    while (parent[node] != node) {
-      parent[node] = parent[parent[node]];
-      node = parent[node];
-    }
-    return node;
-  }
-};
-
-static bool lower_maximum(const Complex& complex, uint32_t a, uint32_t b) {
-  const uint32_t outside = complex.tet_count();
-  if (a == outside || b == outside) return b == outside && a != outside;
-  const double fa = complex.tet_value[a];
-  const double fb = complex.tet_value[b];
-  return fa != fb ? fa < fb : a < b;
-}
-
-/* Values are not negative, so the order of their bits is theirs; turned over, the greatest is */
-/* first. */
-static uint64_t descending_bits(double value) {
-  uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return ~bits;
-}
-
-/* By decreasing value, then number; loose ones, whose first bit is cleared, before all others. */
-static Status sort_triangles(Context& context, const Complex& complex, Span<const uint8_t> loose,
-                             Array<BitsKey>* keys) {
-  const uint32_t count = complex.triangle_count();
-  TRY(keys->resize(count));
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t t = count - 1 - i;
-    const uint64_t bits = descending_bits(complex.triangle_value[t]);
-    (*keys)[i] = {!loose.empty() && loose[t] != 0 ? bits & ~(uint64_t{1} << 63) : bits, t};
-  }
-  return radix_sort(context, keys);
-}
-
-static Void describe_void(const Complex& complex, uint32_t creator, uint32_t maximum) {
-  const double cap = 0.375 * complex.diagonal * complex.diagonal;
-  const double f = complex.triangle_value[creator];
-  const double filling = smaller(complex.tet_value[maximum], cap);
-  const double capped = smaller(f, cap);
-  const double ratio = capped > 0.0 ? std::sqrt(filling / capped) : 1.0;
-  return {creator, maximum, std::sqrt(f), std::sqrt(filling), ratio, false};
-}
-
-static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
-                         Span<const uint8_t> loose, Persistence* persistence) {
-  Array<Void>& voids = persistence->voids;
-  voids.clear();
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (maximum_of[t] == k_none) continue;
-    Void one = describe_void(complex, t, maximum_of[t]);
-    one.loose = !loose.empty() && loose[t] != 0;
-    if (one.ratio > k_least_ratio) TRY(voids.push(one));
-  }
-  sort(voids.span(), [](const Void& a, const Void& b) {
-    return a.ratio != b.ratio ? a.ratio > b.ratio : a.creator < b.creator;
-  });
-  TRY(persistence->void_of.assign(complex.triangle_count(), k_none));
-  for (uint32_t i = 0; i < voids.size(); ++i) persistence->void_of[voids[i].creator] = i;
-  return {};
-}
-
-Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
-                        Span<const uint8_t> loose) {
-  constexpr size_t k_triangles_per_checkpoint = 1u << 16;
-  const uint32_t outside = complex.tet_count();
-  Array<BitsKey> keys(context);
-  Array<uint32_t> maximum_of(context);
-  VoidForest voids(context);
-  TRY(sort_triangles(context, complex, loose, &keys));
-  TRY(maximum_of.assign(complex.triangle_count(), k_none));
-  TRY(persistence->creator.assign(complex.triangle_count(), 0));
-  TRY(voids.parent.resize(outside + 1));
-  TRY(voids.maximum.resize(outside + 1));
-  for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
-  for (size_t i = 0; i < keys.size(); ++i) {
-    if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
-    const uint32_t t = keys[i].index;
-    const uint32_t a = complex.triangle_side[2 * t];
-    const uint32_t b = complex.triangle_side[2 * t + 1];
-    uint32_t low = voids.root_of(a == k_none ? outside : a);
-    uint32_t high = voids.root_of(b == k_none ? outside : b);
-    if (low == high) continue;
-    if (lower_maximum(complex, voids.maximum[high], voids.maximum[low])) swap_values(low, high);
-    persistence->creator[t] = 1;
-    maximum_of[t] = voids.maximum[low];
-    voids.parent[low] = high;
-  }
-  return list_voids(complex, maximum_of.span(), loose, persistence);
-}
-
-}  /* namespace wireskin::flow */
-/* ======== end src/flow/persistence.cpp ======== */
-
 /* ======== begin src/flow/topology.cpp ======== */
 namespace wireskin::flow {
 
 static constexpr uint32_t k_most_tries = 200;
 /* Of a wall's border that may lie off the curves. */
 static constexpr double k_loose_share = 0.1;
-/* Above the noise of rounding, for a void behind a polygon; and its volume, of the power 3/2 of the */
-/* polygon's area: two sheets in one plane are none. */
-static constexpr double k_least_polygon_ratio = 1.0005;
-static constexpr double k_least_polygon_volume = 1e-3;
+/* Of a void that curves wait for: above the noise of rounding. */
+static constexpr double k_least_wanted = 1.0005;
 
 static uint32_t side_of(const Complex& complex, uint32_t triangle, uint32_t side) {
   const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
@@ -13388,35 +15019,32 @@ static bool is_tip(const Complex& complex, const CurveEdges& curves, const Sheet
   return tip;
 }
 
-/* Whether the wall that a creator lies in ends on curves, or at least on chords. */
-static bool bounded_by_curves(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
-                              Span<const uint32_t> wall) {
-  double whole = 0.0, loose = 0.0;
+/* Where a wall ends off the curves at a flat face that waits for others. */
+static bool meets_late_face(const Complex& complex, const FlatCells& cells, uint32_t e) {
+  if (cells.turn.empty()) return false;
+  for (const uint32_t t : complex.triangles_of(e)) {
+    if (cells.turn[t] == Pass::late) return true;
+  }
+  return false;
+}
+
+WallBorder measure_border(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
+                          const Sheet& sheet, Span<const uint32_t> wall) {
+  WallBorder border;
   for (const uint32_t t : wall) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
       const bool by_curve = curves.by_curve(e);
       if (!by_curve && sheet.degree[e] == 2) continue;
-      whole += edge_length(complex, e);
-      if (!by_curve) loose += edge_length(complex, e);
+      const double size = edge_length(complex, e);
+      border.whole += size;
+      if (!by_curve) border.loose += size;
+      if (!by_curve && meets_late_face(complex, cells, e)) border.in_face += size;
+      if (by_curve && cells.need[e] == Need::settled) border.settled += size;
+      if (by_curve && cells.need[e] == Need::waiting) border.waiting += size;
     }
   }
-  return loose <= k_loose_share * whole;
-}
-
-/* Cuts the list where the ratios fall most. */
-static void cut_at_gap(const Persistence& persistence, Array<uint32_t>* chosen) {
-  double greatest = 0.0;
-  size_t kept = 0;
-  for (size_t i = 0; i < chosen->size(); ++i) {
-    const double next = i + 1 < chosen->size() ? persistence.voids[(*chosen)[i + 1]].ratio : 1.0;
-    const double gap = persistence.voids[(*chosen)[i]].ratio / next;
-    if (gap > greatest) {
-      greatest = gap;
-      kept = i + 1;
-    }
-  }
-  chosen->shrink(kept);
+  return border;
 }
 
 namespace {
@@ -13446,11 +15074,17 @@ static Status start_trial(const Complex& complex, const Persistence& persistence
   return {};
 }
 
-enum class Verdict : uint8_t { accepted, unbounded, gone };
+struct Choice {
+  uint32_t place;  /* in Persistence::voids */
+  double ratio;
+  bool wanted;
+};
+
+enum class Verdict : uint8_t { wanted, accepted, unbounded, gone };
 
 /* Whether the creator's wall holds, together with those chosen before. */
-static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_t creator,
-                       uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
+static Status try_void(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
+                       uint32_t creator, uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
   TRY(copy_sheet(trial->all, &trial->peeled));
   add_to_sheet(complex, creator, &trial->peeled);
   peel(complex, curves, Protect::curves, &trial->peeled);
@@ -13459,110 +15093,74 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, uint32_
   TRY(flood_patch(complex, curves, trial->peeled, creator, stamp, trial->mark.span(),
                   &trial->wall));
   if (is_tip(complex, curves, trial->peeled, trial->wall.span(), trial->odd.span())) return {};
-  const bool bounded = bounded_by_curves(complex, curves, trial->peeled, trial->wall.span());
-  *verdict = bounded ? Verdict::accepted : Verdict::unbounded;
+  const WallBorder border =
+      measure_border(complex, curves, cells, trial->peeled, trial->wall.span());
+  const bool bounded = border.loose <= k_loose_share * border.whole && !border.is_idle();
+  *verdict = border.is_wanted() ? Verdict::wanted
+             : bounded          ? Verdict::accepted
+                                : Verdict::unbounded;
   return {};
 }
 
-/* The volume of a room, and the area of a wall. */
-static double room_volume(const Complex& complex, Span<const uint32_t> label, uint32_t room) {
-  double six = 0.0;
-  for (uint32_t i = 0; i < complex.tet_count(); ++i) {
-    if (label[i] != room) continue;
-    const uint32_t* const v = &complex.tet[4 * size_t{i}];
-    const Vec3& a = complex.point[v[0]];
-    six += dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
-  }
-  return six / 6.0;
-}
-
-static double wall_area(const Complex& complex, Span<const uint32_t> wall) {
-  double twice = 0.0;
-  for (const uint32_t t : wall) {
-    const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-    const Vec3& a = complex.point[v[0]];
-    twice += length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
-  }
-  return 0.5 * twice;
-}
-
-/* Whether the wall tried last keeps the outside from a room worth the name. */
-static Status closes_room(const Complex& complex, const VoidTrial& trial, uint32_t creator,
-                          bool* closes) {
-  Array<uint32_t> label(trial.mark.context());
-  TRY(label_rooms(complex, trial.peeled, &label));
-  const uint32_t outside = label[complex.tet_count()];
-  const uint32_t a = label[side_of(complex, creator, 0)], b = label[side_of(complex, creator, 1)];
-  *closes = false;
-  if (a == b || (a != outside && b != outside)) return {};
-  const double area = wall_area(complex, trial.wall.span());
-  const double volume = room_volume(complex, label.span(), a == outside ? b : a);
-  *closes = volume > k_least_polygon_volume * area * std::sqrt(area);
-  return {};
-}
-
-static bool among(Span<const uint32_t> list, uint32_t i) {
-  for (const uint32_t other : list) {
-    if (other == i) return true;
-  }
-  return false;
-}
-
-/* A polygon is a face, however wide open a room would be without it: pyramids and plates are hardly */
-/* narrower at the base than within. Only towards the outside: within, such a face is no wall. */
-static Status close_polygons(Context& context, const Complex& complex, const CurveEdges& curves,
-                             Span<const Flatness> flatness, const Persistence& persistence,
-                             Array<uint32_t>* chosen) {
+/* All that hold; down to a lesser ratio those that curves wait for, if any do. */
+static Status try_voids(Context& context, const Complex& complex, const CurveEdges& curves,
+                        const FlatCells& cells, const Persistence& persistence, double least_ratio,
+                        size_t wished, Array<Choice>* choices, Array<uint32_t>* unbounded) {
   VoidTrial trial(context);
   uint32_t tries = 0;
-  for (uint32_t i = 0; i < persistence.voids.size() && tries < k_most_tries; ++i) {
+  bool waiting = false;
+  for (const Need n : cells.need) waiting = waiting || n == Need::waiting;
+  TRY(start_trial(complex, persistence, {}, &trial));
+  for (uint32_t i = 0; i < persistence.voids.size() && choices->size() < wished; ++i) {
     const Void& v = persistence.voids[i];
-    if (v.ratio < k_least_polygon_ratio) break;
-    if (v.loose || flatness[v.creator] != Flatness::polygon || among(chosen->span(), i)) continue;
-    if (tries++ == 0) TRY(start_trial(complex, persistence, chosen->span(), &trial));
-    TRY(context.checkpoint());
-    Verdict verdict = Verdict::gone;
-    bool closes = false;
-    TRY(try_void(complex, curves, v.creator, i, &trial, &verdict));
-    if (verdict == Verdict::accepted) TRY(closes_room(complex, trial, v.creator, &closes));
-    if (!closes) continue;
+    const bool high = v.ratio >= least_ratio;
+    Verdict verdict = v.held ? Verdict::wanted : Verdict::gone;
+    if (!v.held && (high || (waiting && v.ratio >= k_least_wanted)) && tries < k_most_tries) {
+      ++tries;
+      TRY(context.checkpoint());
+      TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
+    }
+    if (verdict == Verdict::unbounded) TRY(unbounded->push(i));
+    if (verdict != Verdict::wanted && (verdict != Verdict::accepted || !high)) continue;
     add_to_sheet(complex, v.creator, &trial.all);
-    TRY(chosen->push(i));
+    TRY(choices->push({i, v.ratio, verdict == Verdict::wanted}));
   }
   return {};
+}
+
+/* Cuts the list where the ratios fall most, but for voids that are wanted. */
+static void cut_at_gap(Array<Choice>* choices) {
+  double greatest = 0.0;
+  size_t first_cut = 0, kept = 0;
+  sort(choices->span(), [](const Choice& a, const Choice& b) {
+    return a.ratio != b.ratio ? a.ratio > b.ratio : a.place < b.place;
+  });
+  for (size_t i = 0; i < choices->size(); ++i) {
+    const double next = i + 1 < choices->size() ? (*choices)[i + 1].ratio : 1.0;
+    const double gap = (*choices)[i].ratio / next;
+    if (gap > greatest) {
+      greatest = gap;
+      first_cut = i + 1;
+    }
+  }
+  for (size_t i = 0; i < choices->size(); ++i) {
+    if (i < first_cut || (*choices)[i].wanted) (*choices)[kept++] = (*choices)[i];
+  }
+  choices->shrink(kept);
 }
 
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
-                    Span<const Flatness> flatness, const Persistence& persistence,
+                    const FlatCells& cells, const Persistence& persistence,
                     const TopologyOptions& options, Array<uint32_t>* chosen) {
   const bool automatic = options.voids < 0;
   const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
-  VoidTrial trial(context);
+  Array<Choice> choices(context);
   Array<uint32_t> unbounded(context);
+  TRY(try_voids(context, complex, curves, cells, persistence, automatic ? options.least_ratio : 1.0,
+                wished, &choices, &unbounded));
+  if (automatic) cut_at_gap(&choices);
   chosen->clear();
-  TRY(start_trial(complex, persistence, {}, &trial));
-  for (uint32_t i = 0; i < persistence.voids.size() && i < k_most_tries; ++i) {
-    if (automatic && persistence.voids[i].ratio < options.least_ratio) break;
-    if (chosen->size() == wished) break;
-    if (persistence.voids[i].loose) {
-      TRY(unbounded.push(i));
-      continue;
-    }
-    TRY(context.checkpoint());
-    const uint32_t creator = persistence.voids[i].creator;
-    Verdict verdict = Verdict::gone;
-    TRY(try_void(complex, curves, creator, i, &trial, &verdict));
-    if (verdict == Verdict::unbounded) TRY(unbounded.push(i));
-    if (verdict != Verdict::accepted) continue;
-    add_to_sheet(complex, creator, &trial.all);
-    TRY(chosen->push(i));
-  }
-  if (automatic) {
-    cut_at_gap(persistence, chosen);
-    if (!flatness.empty()) {
-      TRY(close_polygons(context, complex, curves, flatness, persistence, chosen));
-    }
-  }
+  for (const Choice& c : choices) TRY(chosen->push(c.place));
   /* Who asks for a number gets it as far as anything is caged at all. */
   for (size_t k = 0; !automatic && k < unbounded.size() && chosen->size() < wished; ++k) {
     TRY(chosen->push(unbounded[k]));
@@ -13572,20 +15170,24 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
 
 /* ---- Handles and walls -------------------------------------------------------------------------- */
 
-static bool same_void(const Complex& complex, Span<const uint32_t> label, uint32_t triangle) {
-  return label[side_of(complex, triangle, 0)] == label[side_of(complex, triangle, 1)];
+/* Whether the triangle may go: one void is on both sides, and it is not part of a sure face. */
+static bool may_go(const Complex& complex, const FlatCells& cells, const Topology3& topology,
+                   uint32_t triangle) {
+  if (!cells.turn.empty() && cells.turn[triangle] == Pass::late) return false;
+  return topology.label[side_of(complex, triangle, 0)] ==
+         topology.label[side_of(complex, triangle, 1)];
 }
 
 /* Opens handles: triangles with one void on both sides that are part of no fin. */
 static Status open_handles(Context& context, const Complex& complex, const CurveEdges& curves,
-                           Topology3* topology) {
+                           const FlatCells& cells, Topology3* topology) {
   Sheet& walls = topology->walls;
   Sheet finless(context);
   Array<uint32_t> order(context);
   TRY(copy_sheet(walls, &finless));
   peel(complex, curves, Protect::nothing, &finless);
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (finless.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+    if (finless.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
   for (const uint32_t t : order) {
@@ -13643,14 +15245,14 @@ static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, 
 /* good, and with it all that joins it later, for there are only ever fewer triangles; and one whose */
 /* border is closed has no neighbour that it could join. So each is looked at once. */
 static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
-                                Topology3* topology) {
+                                const FlatCells& cells, Topology3* topology) {
   constexpr size_t k_work_per_checkpoint = 1u << 14;
   Sheet& walls = topology->walls;
   Array<uint32_t> order(context), wall(context);
   Array<Settled> settled(context);
   TRY(settled.assign(complex.triangle_count(), Settled::no));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (walls.in[t] != 0 && same_void(complex, topology->label.span(), t)) TRY(order.push(t));
+    if (walls.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
   size_t work = 0;
@@ -13674,9 +15276,9 @@ static Status remove_open_walls(Context& context, const Complex& complex, const 
 }
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
-                            Span<const Flatness> flatness, const Persistence& persistence,
+                            const FlatCells& cells, const Persistence& persistence,
                             const TopologyOptions& options, Topology3* topology) {
-  TRY(choose_voids(context, complex, curves, flatness, persistence, options, &topology->chosen));
+  TRY(choose_voids(context, complex, curves, cells, persistence, options, &topology->chosen));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
@@ -13688,8 +15290,8 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
   peel(complex, curves, Protect::curves, &walls);
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));
-  TRY(open_handles(context, complex, curves, topology));
-  if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, topology));
+  TRY(open_handles(context, complex, curves, cells, topology));
+  if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, cells, topology));
   return {};
 }
 
@@ -13822,19 +15424,40 @@ static bool takes(const Classes& classes, uint32_t c, size_t first, uint32_t oth
   return false;
 }
 
+/* Where the classes are looked up: walls, rooms and what is known of flat faces. */
+struct TailSearch {
+  const FlatCells& cells;
+  const Persistence& persistence;
+  const Topology3& topology;
+};
+
+/* A strip of a flat face, with one void on both sides, from where another wall merged into the face */
+/* to the curve that they should meet at. */
+static bool is_flat_tail(const Complex& complex, const TailSearch& search, uint32_t t) {
+  if (search.cells.turn.empty() || search.cells.turn[t] != Pass::late) return false;
+  uint32_t label[2];
+  for (uint32_t k = 0; k < 2; ++k) {
+    const uint32_t side = complex.triangle_side[2 * size_t{t} + k];
+    label[k] = search.topology.label[side == k_none ? complex.tet_count() : side];
+  }
+  return label[0] == label[1];
+}
+
 /* The ear in the walls at a chord of the border, or the tail at an edge where sheets merge. */
 static uint32_t continuation(const Complex& complex, const CurveEdges& curves,
-                             const Persistence& persistence, const Sheet& walls,
-                             const Classes& classes, uint32_t e) {
+                             const TailSearch& search, const Classes& classes, uint32_t e) {
+  const Sheet& walls = search.topology.walls;
   if (curves.on_curve(e)) return k_none;
   if (is_chord(curves, e)) {
     const uint32_t ear = ear_of(complex, curves, e);
     const bool here = walls.in[ear] != 0 && classes.kind[classes.of[ear]] == Kind::ear;
     return here ? classes.of[ear] : k_none;
   }
-  if (walls.degree[e] < 3 || complex.edge_gabriel[e] != 0) return k_none;
+  if (walls.degree[e] < 3) return k_none;
   for (const uint32_t t : complex.triangles_of(e)) {
-    if (walls.in[t] != 0 && persistence.creator[t] == 0 &&
+    if (walls.in[t] == 0) continue;
+    if (is_flat_tail(complex, search, t)) return classes.of[t];
+    if (complex.edge_gabriel[e] == 0 && search.persistence.creator[t] == 0 &&
         complex.triangle_value[t] == complex.edge_value[e]) {
       return classes.of[t];
     }
@@ -13844,14 +15467,14 @@ static uint32_t continuation(const Complex& complex, const CurveEdges& curves,
 
 /* Lets class c take over ears and tails until its border is on curves, or nothing more is found. */
 static Status take_continuations(const Complex& complex, const CurveEdges& curves,
-                                 const Persistence& persistence, const Sheet& walls, uint32_t c,
-                                 Classes* classes, Border* border) {
+                                 const TailSearch& search, uint32_t c, Classes* classes,
+                                 Border* border) {
   const size_t first = classes->taken.size();
   TRY(toggle_triangles(complex, classes->part(c), border));
   for (size_t i = 0; i < border->edge.size(); ++i) {
     const uint32_t e = border->edge[i];
     if (border->odd[e] == 0) continue;
-    const uint32_t other = continuation(complex, curves, persistence, walls, *classes, e);
+    const uint32_t other = continuation(complex, curves, search, *classes, e);
     if (other == k_none || other == c || takes(*classes, c, first, other)) continue;
     TRY(classes->taken_by.push(c));
     TRY(classes->taken.push(other));
@@ -13862,12 +15485,11 @@ static Status take_continuations(const Complex& complex, const CurveEdges& curve
 }
 
 static Status find_tails(Context& context, const Complex& complex, const CurveEdges& curves,
-                         const Persistence& persistence, const Sheet& walls, Classes* classes,
-                         Border* border) {
+                         const TailSearch& search, Classes* classes, Border* border) {
   for (uint32_t c = 0; c < classes->kind.size(); ++c) {
     if (c % 256 == 0) TRY(context.checkpoint());
     if (classes->kind[c] == Kind::ear) continue;
-    TRY(take_continuations(complex, curves, persistence, walls, c, classes, border));
+    TRY(take_continuations(complex, curves, search, c, classes, border));
   }
   for (const uint32_t other : classes->taken) {
     if (classes->kind[other] == Kind::patch) classes->kind[other] = Kind::tail;
@@ -13942,7 +15564,7 @@ static Status own_rest(const Complex& complex, const CurveEdges& curves, const S
 }
 
 Status cut_patches(Context& context, const Complex& complex, const CurveEdges& curves,
-                   const Samples& samples, const Persistence& persistence,
+                   const Samples& samples, const FlatCells& cells, const Persistence& persistence,
                    const Topology3& topology, Patches* patches) {
   Classes classes(context);
   Border border(context);
@@ -13952,7 +15574,7 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
   TRY(border.touched.assign(complex.edge_count(), 0));
   TRY(find_classes(complex, curves, topology.walls, &classes));
   TRY(find_ears(complex, curves, &classes, &border));
-  TRY(find_tails(context, complex, curves, persistence, topology.walls, &classes, &border));
+  TRY(find_tails(context, complex, curves, {cells, persistence, topology}, &classes, &border));
   TRY(find_sides(complex, persistence, topology, &side));
   TRY(orient_walls(context, complex, topology.walls, side.span(), &patches->turned));
   TRY(patches->owner.assign(complex.triangle_count(), k_none));
@@ -14108,7 +15730,7 @@ static uint32_t room_at(const Complex& complex, const Cells& cells, uint32_t tri
 }
 
 /* The classes of triangles under edges that are no curve and have two of them. */
-static Status number_walls(const Complex& complex, const CurveEdges& curves,
+static Status number_walls(const Complex& complex, const CurveEdges& curves, const FlatCells& flat,
                            const SampleTangents& tangents, const Topology3& topology,
                            Cells* cells) {
   Array<uint32_t>& queue = cells->triangle;
@@ -14135,12 +15757,14 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves,
     }
     const Span<const uint32_t> part = queue.span().part(first, queue.size() - first);
     TRY(cells->start.push(static_cast<uint32_t>(queue.size())));
-    TRY(cells->wall.push({{room_at(complex, *cells, t, 0), room_at(complex, *cells, t, 1)},
-                          value,
-                          feasibility_of(complex, tangents, part),
-                          k_none,
-                          topology.walls.in[t] != 0,
-                          topology.closed.in[t] == 0}));
+    TRY(cells->wall.push(
+        {{room_at(complex, *cells, t, 0), room_at(complex, *cells, t, 1)},
+         value,
+         feasibility_of(complex, tangents, part),
+         k_none,
+         topology.walls.in[t] != 0,
+         topology.closed.in[t] == 0 &&
+             !measure_border(complex, curves, flat, cells->sheet, part).is_idle()}));
   }
   return {};
 }
@@ -14161,18 +15785,16 @@ static Status link_rooms(Cells* cells) {
 }
 
 static Status find_cells(Context& context, const Complex& complex, const CurveEdges& curves,
-                         const Persistence& persistence, const SampleTangents& tangents,
-                         const Topology3& topology, Cells* cells) {
+                         const FlatCells& flat, const Persistence& persistence,
+                         const SampleTangents& tangents, const Topology3& topology, Cells* cells) {
   TRY(start_sheet(complex, &cells->sheet));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     const uint32_t v = persistence.void_of[t];
-    if (persistence.creator[t] == 0 || (v != k_none && !persistence.voids[v].loose)) {
-      add_to_sheet(complex, t, &cells->sheet);
-    }
+    if (persistence.creator[t] == 0 || v != k_none) add_to_sheet(complex, t, &cells->sheet);
   }
   peel(complex, curves, Protect::curves, &cells->sheet);
   TRY(number_rooms(context, complex, topology.label.span(), cells));
-  TRY(number_walls(complex, curves, tangents, topology, cells));
+  TRY(number_walls(complex, curves, flat, tangents, topology, cells));
   TRY(link_rooms(cells));
   for (const Void& v : persistence.voids) {
     const uint32_t wall = cells->wall_of[v.creator];
@@ -14291,13 +15913,14 @@ static Status empty_rooms(Context& context, uint32_t outside_label, bool inside_
 }
 
 Status thicken_and_prune(Context& context, const Complex& complex, const CurveEdges& curves,
-                         const Persistence& persistence, const SampleTangents& tangents,
-                         const ThickenOptions& options, Topology3* topology) {
+                         const FlatCells& flat, const Persistence& persistence,
+                         const SampleTangents& tangents, const ThickenOptions& options,
+                         Topology3* topology) {
   if (topology->chosen.empty() || !(options.reach > 0.0)) return {};
   Cells cells(context);
   Array<uint8_t> added(context), opened(context);
   bool any = false;
-  TRY(find_cells(context, complex, curves, persistence, tangents, *topology, &cells));
+  TRY(find_cells(context, complex, curves, flat, persistence, tangents, *topology, &cells));
   TRY(context.checkpoint());
   TRY(fill_rooms(complex, persistence, *topology, options.reach, &added, &cells, &any));
   if (!any) return {};
@@ -14323,6 +15946,14 @@ Status thicken_and_prune(Context& context, const Complex& complex, const CurveEd
 /* ======== begin src/flow/flow.cpp ======== */
 namespace wireskin::flow {
 
+/* So many samples have more tetrahedra than they are; known before any is made. */
+static Status check_sample_count(const Arcs& arcs, double step, uint32_t most_tets) {
+  double samples = 0.0;
+  for (uint32_t a = 0; a < arcs.size(); ++a) samples += arcs.length_of(a) / step;
+  if (samples < most_tets) return {};
+  return fail(Code::too_large, "the step is too small for the curves");
+}
+
 Status build_flow(Context& context, const Polylines& polylines, const FlowOptions& options,
                   Flow* flow) {
   TRY(context.enter(Stage::curves));
@@ -14332,15 +15963,20 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   if (!(options.sampling > 0.0) && options.spacing > 0.0) {
     flow->step = smaller(flow->step, options.spacing);
   }
+  TRY(check_sample_count(flow->arcs, flow->step, options.complex.most_tets));
   if (options.bend) TRY(bend_arcs(context, flow->step, &flow->arcs));
   TRY(sample_arcs(context, flow->arcs, flow->step, &flow->samples));
   TRY(find_tangents(flow->samples, &flow->tangents));
   TRY(context.enter(Stage::network));
   TRY(build_complex(context, flow->samples.position.span(), options.complex, &flow->complex));
   TRY(find_curve_edges(flow->complex, flow->samples, &flow->curves));
-  Array<uint8_t> loose(context);
-  return find_persistence_of_faces(context, flow->complex, flow->samples, flow->curves,
-                                   &flow->flatness, &flow->persistence, &loose);
+  StraightLines lines(context);
+  FlatFaces faces(context);
+  TRY(find_straight_lines(flow->complex, flow->samples, &lines));
+  TRY(find_flat_faces(context, flow->complex, flow->samples, flow->curves, lines, &faces));
+  TRY(find_flat_cells(context, flow->complex, flow->samples, flow->curves, lines, faces,
+                      &flow->cells));
+  return find_persistence(context, flow->complex, &flow->persistence, flow->cells.turn.span());
 }
 
 /* Components of walls and curves, counted over all samples. */
@@ -14396,11 +16032,11 @@ static Status count_reconstruction(Context& context, const Flow& flow, Reconstru
 Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptions& options,
                    Reconstruction* result) {
   TRY(context.enter(Stage::patches));
-  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.flatness.span(),
-                           flow.persistence, options.topology, &result->topology));
-  TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.persistence, flow.tangents,
-                        options.thicken, &result->topology));
-  TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.persistence,
+  TRY(reconstruct_topology(context, flow.complex, flow.curves, flow.cells, flow.persistence,
+                           options.topology, &result->topology));
+  TRY(thicken_and_prune(context, flow.complex, flow.curves, flow.cells, flow.persistence,
+                        flow.tangents, options.thicken, &result->topology));
+  TRY(cut_patches(context, flow.complex, flow.curves, flow.samples, flow.cells, flow.persistence,
                   result->topology, &result->patches));
   return count_reconstruction(context, flow, result);
 }
@@ -15170,11 +16806,32 @@ static Status judge_mesh(Context& context, const FlowSettings& settings, bool me
   return {};
 }
 
+/* As network/size_limit.h has it, but here the areas are known. */
+static Status check_flow_vertices(const flow::Patches& patches, double spacing) {
+  constexpr double k_most_vertices = 67108864.0;  /* 2^26 */
+  if (!(spacing > 0.0)) return {};
+  double sum = 0.0, most = 0.0;
+  Place place;
+  for (uint32_t p = 0; p < patches.size(); ++p) {
+    const double vertices = patches.facts[p].area / (spacing * spacing);
+    sum += vertices;
+    if (!(vertices > most)) continue;
+    most = vertices;
+    place.patch = p;
+  }
+  if (sum < k_most_vertices) return {};
+  return fail(Code::too_large,
+              "the spacing is too small for the network: its surface would have more than 2^26 "
+              "vertices",
+              place);
+}
+
 Status surface_from_flow(Context& context, const flow::Flow& flow,
                          const flow::Reconstruction& reconstruction, const FlowSettings& settings,
                          Surface* surface, FlowOutcome* outcome) {
   {
     flow::FlowMesh mesh(context);
+    TRY(check_flow_vertices(reconstruction.patches, settings.spacing));
     TRY(flow::mesh_patches(context, flow, reconstruction, settings.spacing, &mesh));
     outcome->held_back = mesh.held_back;
     outcome->crossings = mesh.crossings;
@@ -16226,8 +17883,7 @@ class Snapper {
         component_(beads->context()),
         best_(beads->context()),
         stamp_(beads->context()),
-        queue_(beads->context()),
-        parts_(beads->context()) {}
+        queue_(beads->context()) {}
 
   Status run(SnapResult* result);
 
@@ -16246,7 +17902,7 @@ class Snapper {
   Status unite(const Meeting& meeting, SnapResult* result);
   Status join(const Approach& approach, bool beside, SnapResult* result);
   Status join_all(Span<const Approach> approaches, const SnapPlan& plan, SnapResult* result);
-  Status count_open(Span<const Approach> approaches, uint32_t* open);
+  Status count_open(Span<const Approach> approaches, Span<const uint8_t> beside, uint32_t* open);
 
   double tolerance_;
   Beads& beads_;
@@ -16259,7 +17915,6 @@ class Snapper {
   Array<uint32_t> queue_;
   uint32_t now_ = 0;
   uint32_t steps_ = 0;
-  DisjointSets parts_;  /* of the components before snapping */
 };
 
 double Snapper::node_reach(double gap) const {
@@ -16274,7 +17929,7 @@ bool Snapper::would_touch(uint32_t b, const WirePlace& place) const {
   for (uint32_t other = beads_.bead[b].ring; other != b; other = beads_.bead[other].ring) {
     if (beads_.curve_of(other) == beads_.curve[place.edge]) continue;
     const Vec3 there = unit(beads_.direction_at(beads_.place_of(other)));
-    if (run_along(own, there)) return true;
+    if (there != Vec3{} && run_along(own, there)) return true;  /* a point leads nowhere */
   }
   return false;
 }
@@ -16373,13 +18028,11 @@ Status Snapper::unite(const Meeting& m, SnapResult* result) {
   if (beads_.is_end(x) && beads_.is_end(z)) snap.kind = SnapKind::end_end;
   TRY(result->snaps.push(snap));
   beads_.unite(x, z);
-  parts_.unite(component_[beads_.curve_of(x)], component_[beads_.curve_of(z)]);
   return {};
 }
 
-/* Curves that pass side by side are joined only where nothing else joins their components. Where */
-/* curves cross they share a point, however near the ways round by other curves are; so do an end */
-/* and the curve on which it lies. */
+/* Curves that pass side by side are joined only at an end. Where curves cross they share a point, */
+/* however near the ways round by other curves are; so do an end and the curve on which it lies. */
 Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) {
   const double reach = node_reach(approach.distance);
   const Meeting m = meet(approach, reach);
@@ -16387,8 +18040,7 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
   if (!(distance <= tolerance_)) return {};
   const uint32_t a = component_[beads_.curve[m.a.edge]], b = component_[beads_.curve[m.b.edge]];
   if (m.free_ends == 0) {
-    if (a == b && distance > crossing()) return {};
-    if (beside && parts_.find(a) == parts_.find(b)) return {};
+    if (beside || (a == b && distance > crossing())) return {};
   }
   bool together = false;
   const bool on_it = exact_ && m.free_ends == 1 && distance <= k_exact * tolerance_;
@@ -16407,15 +18059,16 @@ Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
-      if (plan.pass[k] == now) TRY(join(approaches[k], now == SnapPass::beside, result));
+      if (plan.pass[k] == now) TRY(join(approaches[k], plan.beside[k] != 0, result));
       if (k % 64 == 63) TRY(context().checkpoint());
     }
   }
   return {};
 }
 
-/* Pairs of components that come nearer to each other than the tolerance. */
-Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
+/* Pairs of components that come nearer to each other than the tolerance, and not side by side. */
+Status Snapper::count_open(Span<const Approach> approaches, Span<const uint8_t> beside,
+                           uint32_t* open) {
   struct Pair {
     uint32_t a, b;
   };
@@ -16426,7 +18079,9 @@ Status Snapper::count_open(Span<const Approach> approaches, uint32_t* open) {
     joined.unite(beads_.curve_of(b), beads_.curve_of(beads_.bead[b].ring));
   }
   TRY(pairs.reserve(approaches.size()));
-  for (const Approach& approach : approaches) {
+  for (size_t k = 0; k < approaches.size(); ++k) {
+    const Approach& approach = approaches[k];
+    if (beside[k]) continue;
     const uint32_t a = joined.find(beads_.curve[approach.a.edge]);
     const uint32_t b = joined.find(beads_.curve[approach.b.edge]);
     if (a != b) pairs.push_reserved(a < b ? Pair{a, b} : Pair{b, a});
@@ -16455,14 +18110,13 @@ Status Snapper::run(SnapResult* result) {
   TRY(beads_.string_samples(approaches.size()));
   TRY(best_.assign(beads_.room(), 0.0));
   TRY(stamp_.assign(beads_.room(), 0));
-  TRY(parts_.reset(counts.components));
-  TRY(count_open(approaches.span(), &result->open_before));
   SnapPlan plan(context());
   TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), &plan));
+  TRY(count_open(approaches.span(), plan.beside.span(), &result->open_before));
   exact_ = plan.exact;
   TRY(join_all(approaches.span(), plan, result));
   beads_.unite_close(k_one_node * tolerance_);
-  return count_open(approaches.span(), &result->open_after);
+  return count_open(approaches.span(), plan.beside.span(), &result->open_after);
 }
 
 Status snap_wires(double tolerance, Wires* wires, SnapResult* result) {
@@ -17214,15 +18868,6 @@ Vec3 spline_value(const Spline& spline, size_t i, double t) {
          b3 * spline.moment[i + 1];
 }
 
-Vec3 spline_derivative(const Spline& spline, size_t i, double t) {
-  const double left = spline.knot[i], right = spline.knot[i + 1];
-  const double h = right - left;
-  const double a = (right - t) / h, b = (t - left) / h;
-  return (1.0 / h) * (spline.value[i + 1] - spline.value[i]) +
-         (h * (1.0 - 3.0 * a * a) / 6.0) * spline.moment[i] +
-         (h * (3.0 * b * b - 1.0) / 6.0) * spline.moment[i + 1];
-}
-
 Status fit_spline(Span<const double> knots, Span<const Vec3> values, SplineEnd end,
                   const Vec3& tangent_first, const Vec3& tangent_last, Span<Vec3> moments,
                   SplineScratch* scratch) {
@@ -17271,6 +18916,24 @@ static bool sides_differ(const Samples& samples, size_t before, size_t i) {
          lies_across(a, direction_at(samples, before)) && lies_across(b, direction_at(samples, i));
 }
 
+/* The unit direction across the curve within the surface. */
+static Vec3 conormal(const Samples& samples, size_t i) {
+  return unit(cross(direction_at(samples, i), samples.normal[i]));
+}
+
+/* Whether the curve bends over between two samples, as at the tip of a thin section that has no */
+/* sample there: it turns back, both normals lie along the chord, out of the tip or both into it, */
+/* and conormals, which bending leaves alone, agree but for a twist. */
+static bool bends_over(const Samples& samples, size_t before, size_t i) {
+  constexpr double k_least_along = 0.5, k_twist_cosine = 0.5;
+  const Vec3 chord = unit(samples.position[i] - samples.position[before]);
+  const double from = dot(samples.normal[before], chord), to = dot(samples.normal[i], chord);
+  const bool turns_back = dot(direction_at(samples, before), direction_at(samples, i)) < 0.0;
+  return turns_back && from * to < 0.0 && std::fabs(from) > k_least_along &&
+         std::fabs(to) > k_least_along &&
+         dot(conormal(samples, before), conormal(samples, i)) > k_twist_cosine;
+}
+
 Status check_samples(const Samples& samples) {
   const size_t n = samples.position.size();
   if (n < (samples.closed ? 3u : 2u)) {
@@ -17298,8 +18961,12 @@ Status check_samples(const Samples& samples) {
     if (dot(samples.normal[i], samples.normal[before]) < k_least_normal_cosine) {
       return fail_sample(
           Code::inconsistent_normals,
-          "the normal turns by more than 120 degrees from the sample before: samples are "
-          "too far apart there, or a sign is wrong",
+          bends_over(samples, before, i)
+              ? "the curve turns round a tip between the sample before and this one, by more than "
+                "120 degrees, and has no sample there: give it one at the tip"
+              : "the normal turns by more than 120 degrees from the sample before, and the curve "
+                "does not turn with it: samples are too far apart there or, if only signs are "
+                "wrong, the option orient makes them agree",
           i);
     }
   }
@@ -18696,6 +20363,10 @@ static bool fold_over(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q
   return sign_of(orient2d(a, b, drop_axis(p, axis))) == sign_of(orient2d(a, b, drop_axis(q, axis)));
 }
 
+static bool repeats_corner(const uint32_t* t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_t* b) {
   uint32_t shared = 0, at_a = 0, at_b = 0, sum_a = 0, sum_b = 0;
   for (uint32_t i = 0; i < 3; ++i) {
@@ -18707,7 +20378,7 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
     }
   }
   const Vec3* const p = position.data();
-  if (shared == 3) return true;
+  if (shared >= 3 || repeats_corner(a) || repeats_corner(b)) return true;
   if (shared == 2) {
     /* The corners that are not shared are what is left of 0 + 1 + 2. */
     const uint32_t i = 3 - sum_a, j = 3 - sum_b;
@@ -19189,212 +20860,6 @@ Status radix_sort(Context& context, Array<BitsKey>* keys) {
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/radix_sort.cpp ======== */
-
-/* ======== begin src/flow/loose_walls.cpp ======== */
-namespace wireskin::flow {
-
-/* Of a wall's border, how much makes it loose: ending in flat faces, and ending anywhere. */
-static constexpr double k_share_in_faces = 0.25, k_share_anywhere = 0.9;
-/* Rooms of a lesser ratio are noise of the samples; only flat faces are sure enough to tell by. */
-static constexpr double k_least_room = 1.02;
-static constexpr int k_most_rounds = 8;
-/* The cosine between two walls at an edge, both seen from it, that continue each other: 160 */
-/* degrees. */
-static constexpr double k_continuing = -0.94;
-static constexpr uint32_t k_most_at_edge = 16;
-
-namespace {
-
-enum class Ending : uint8_t { none, somewhere, in_face };
-
-/* The walls at the edges off the curves where three or more triangles meet. */
-struct LooseSearch {
-  Sheet sheet;
-  Array<uint32_t> mark, wall;
-  Array<uint32_t> room;    /* label_rooms() of the sheet */
-  Array<uint32_t> ending;  /* of each edge, a bit for each place in triangles_of that ends there */
-  Array<uint8_t> in_face;  /* of each edge: two of those that continue are a flat face */
-
-  explicit LooseSearch(Context& context)
-      : sheet(context),
-        mark(context),
-        wall(context),
-        room(context),
-        ending(context),
-        in_face(context) {}
-};
-
-struct EdgeFan {
-  uint32_t count = 0;
-  uint32_t place[k_most_at_edge];
-  Vec3 into[k_most_at_edge];
-  bool flat[k_most_at_edge];
-};
-
-}  /* namespace */
-
-/* From the edge into the triangle, orthogonal to the edge. */
-static Vec3 into_triangle(const Complex& complex, uint32_t e, uint32_t t) {
-  const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const uint32_t c = v[0] != a && v[0] != b ? v[0] : v[1] != a && v[1] != b ? v[1] : v[2];
-  const Vec3 along = unit(complex.point[b] - complex.point[a]);
-  const Vec3 to = complex.point[c] - complex.point[a];
-  return unit(to - dot(to, along) * along);
-}
-
-static void gather_fan(const Complex& complex, const Sheet& sheet, Span<const Flatness> flatness,
-                       uint32_t e, EdgeFan* fan) {
-  const Span<const uint32_t> all = complex.triangles_of(e);
-  for (uint32_t i = 0; i < all.size() && i < 32 && fan->count < k_most_at_edge; ++i) {
-    if (sheet.in[all[i]] == 0) continue;
-    fan->place[fan->count] = i;
-    fan->into[fan->count] = into_triangle(complex, e, all[i]);
-    fan->flat[fan->count++] = flatness[all[i]] != Flatness::none;
-  }
-}
-
-/* Pairs those that continue each other, from the flattest on; flat faces before all others. */
-static void pair_fan(const EdgeFan& fan, uint32_t* ending, uint8_t* in_face) {
-  *ending = 0;
-  for (uint32_t i = 0; i < fan.count; ++i) *ending |= 1u << fan.place[i];
-  for (uint32_t pass = 0; pass < 2; ++pass) {
-    const bool flat = pass == 0;
-    while (true) {
-      double least = k_continuing;
-      uint32_t first = 0, second = 0;
-      for (uint32_t i = 0; i < fan.count; ++i) {
-        for (uint32_t k = i + 1; k < fan.count; ++k) {
-          const bool free =
-              (*ending >> fan.place[i] & 1u) != 0 && (*ending >> fan.place[k] & 1u) != 0;
-          const double cosine = dot(fan.into[i], fan.into[k]);
-          if (!free || (flat && !(fan.flat[i] && fan.flat[k])) || !(cosine < least)) continue;
-          least = cosine;
-          first = i;
-          second = k;
-        }
-      }
-      if (first == second) break;
-      *ending &= ~(1u << fan.place[first]) & ~(1u << fan.place[second]);
-      if (flat) *in_face = 1;
-    }
-  }
-}
-
-static void find_endings(const Complex& complex, const CurveEdges& curves,
-                         Span<const Flatness> flatness, LooseSearch* search) {
-  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
-    search->ending[e] = search->in_face[e] = 0;
-    if (search->sheet.degree[e] < 3 || curves.by_curve(e)) continue;
-    EdgeFan fan;
-    gather_fan(complex, search->sheet, flatness, e, &fan);
-    pair_fan(fan, &search->ending[e], &search->in_face[e]);
-  }
-}
-
-static Ending ending_at(const Complex& complex, const LooseSearch& search, uint32_t e, uint32_t t) {
-  const Span<const uint32_t> all = complex.triangles_of(e);
-  for (uint32_t i = 0; search.ending[e] != 0 && i < all.size() && i < 32; ++i) {
-    if (all[i] != t) continue;
-    if ((search.ending[e] >> i & 1u) == 0) return Ending::none;
-    return search.in_face[e] != 0 ? Ending::in_face : Ending::somewhere;
-  }
-  return Ending::none;
-}
-
-/* Whether the wall parts a room from the outside. There a wall may end all round and hold */
-/* nevertheless: where a pocket of uneven samples bulges from it, the pocket's floor continues the */
-/* wall more evenly than its roof. */
-static bool is_outer(const Complex& complex, const LooseSearch& search) {
-  const uint32_t outside = search.room[complex.tet_count()], t = search.wall[0];
-  bool outer[2];
-  for (uint32_t k = 0; k < 2; ++k) {
-    const uint32_t side = complex.triangle_side[2 * size_t{t} + k];
-    outer[k] = side == k_none || search.room[side] == outside;
-  }
-  return outer[0] != outer[1];
-}
-
-static bool is_loose(const Complex& complex, const CurveEdges& curves,
-                     Span<const Flatness> flatness, const LooseSearch& search, bool only_in_faces) {
-  double held = 0.0, somewhere = 0.0, in_face = 0.0;
-  for (const uint32_t t : search.wall) {
-    if (flatness[t] != Flatness::none) return false;
-    for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      const Ending ending = ending_at(complex, search, e, t);
-      if (ending == Ending::none && !curves.by_curve(e)) continue;
-      const double size = length(complex.point[complex.edge[2 * size_t{e}]] -
-                                 complex.point[complex.edge[2 * size_t{e} + 1]]);
-      (ending == Ending::in_face     ? in_face
-       : ending == Ending::somewhere ? somewhere
-                                     : held) += size;
-    }
-  }
-  const double whole = held + somewhere + in_face;
-  return in_face > k_share_in_faces * whole || (!only_in_faces && !is_outer(complex, search) &&
-                                                somewhere + in_face > k_share_anywhere * whole);
-}
-
-/* The walls of all rooms above a ratio. */
-static Status cut_rooms(const Complex& complex, const CurveEdges& curves,
-                        const Persistence& persistence, double least_room, Sheet* sheet) {
-  TRY(start_sheet(complex, sheet));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    const uint32_t v = persistence.void_of[t];
-    const bool room = v != k_none && !persistence.voids[v].loose;
-    if (persistence.creator[t] == 0 || (room && persistence.voids[v].ratio > least_room)) {
-      add_to_sheet(complex, t, sheet);
-    }
-  }
-  peel(complex, curves, Protect::curves, sheet);
-  return {};
-}
-
-/* Marks the loose walls of the rooms above a ratio; true in *any if one is new. */
-static Status mark_loose(Context& context, const Complex& complex, const CurveEdges& curves,
-                         Span<const Flatness> flatness, const Persistence& persistence,
-                         double least_room, LooseSearch* search, Array<uint8_t>* loose, bool* any) {
-  TRY(cut_rooms(complex, curves, persistence, least_room, &search->sheet));
-  find_endings(complex, curves, flatness, search);
-  TRY(label_rooms(complex, search->sheet, &search->room));
-  TRY(context.checkpoint());
-  for (uint32_t& m : search->mark) m = k_none;
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (search->sheet.in[t] == 0 || search->mark[t] != k_none) continue;
-    TRY(flood_patch(complex, curves, search->sheet, t, t, search->mark.span(), &search->wall));
-    if (!is_loose(complex, curves, flatness, *search, least_room < k_least_room)) continue;
-    *any = true;
-    for (const uint32_t member : search->wall) (*loose)[member] = 1;
-  }
-  return context.checkpoint();
-}
-
-Status find_persistence_of_faces(Context& context, const Complex& complex, const Samples& samples,
-                                 const CurveEdges& curves, Array<Flatness>* flatness,
-                                 Persistence* persistence, Array<uint8_t>* loose) {
-  LooseSearch search(context);
-  TRY(loose->assign(complex.triangle_count(), 0));
-  TRY(search.mark.resize(complex.triangle_count()));
-  TRY(search.ending.resize(complex.edge_count()));
-  TRY(search.in_face.resize(complex.edge_count()));
-  TRY(find_persistence(context, complex, persistence));
-  TRY(cut_rooms(complex, curves, *persistence, 1.0, &search.sheet));
-  TRY(find_flat_faces(context, complex, samples, curves, search.sheet, flatness));
-  bool any = true;
-  for (int round = 0; any && round < k_most_rounds; ++round) {
-    any = false;
-    for (uint32_t pass = 0; pass < 2; ++pass) {
-      TRY(mark_loose(context, complex, curves, flatness->span(), *persistence,
-                     pass == 0 ? 1.0 : k_least_room, &search, loose, &any));
-    }
-    if (any) TRY(find_persistence(context, complex, persistence, loose->span()));
-  }
-  return {};
-}
-
-}  /* namespace wireskin::flow */
-/* ======== end src/flow/loose_walls.cpp ======== */
 
 /* ======== begin src/flow/orient.cpp ======== */
 namespace wireskin::flow {
@@ -20159,6 +21624,8 @@ static constexpr double k_weight_of_normals = 2.0;
 static constexpr double k_weight_of_normals_of_tubes = 8.0;
 /* Areas below this share of the squared perimeter, and angles of about this size, are none. */
 static constexpr double k_no_area = 1e-10;
+/* More than any triangles with area can cost together, the extent being about one. */
+static constexpr double k_weight_of_needle = 1e6;
 
 namespace {
 
@@ -20342,12 +21809,15 @@ static double triangle_weight(const Kept& kept, uint32_t i, uint32_t j, uint32_t
   const Span<const Vec3> position = kept.loops.position, normal = kept.loops.normal;
   const Vec3 a = position[v] - position[u], b = position[w] - position[u];
   const Vec3 across = cross(a, b), c = b - a;
+  /* Three places of a straight side make a triangle of no area only where there is no other way. */
+  const double squares = dot(a, a) + dot(b, b) + dot(c, c);
+  if (!(length(across) > k_no_area * squares)) return k_weight_of_needle;
   const Vec3 facing = unit(normal[u] + normal[v] + normal[w]);
   /* |across| / 2 is the area, so this is area * (1 + k (1 - cos)) without a division. */
   const double weight =
       kept.loops.count() == 1 ? k_weight_of_normals : k_weight_of_normals_of_tubes;
   return 0.5 * ((1.0 + weight) * length(across) - weight * dot(across, facing)) +
-         k_weight_of_edges * (dot(a, a) + dot(b, b) + dot(c, c));
+         k_weight_of_edges * squares;
 }
 
 static Status find_best(Context& context, const Kept& kept, Best* best) {
@@ -20522,18 +21992,33 @@ static Status triangulate_loops(Context& context, const Loops& loops, Array<Vec3
   return put_back(kept, triangle);
 }
 
-Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh* mesh) {
-  TRY(check_loops(loops, spacing));
-  Array<Vec3> point(context), inner(context);
-  Array<uint32_t> triangle(context);
-  TRY(triangulate_loops(context, loops, &inner, &triangle));
-  TRY(point.copy(loops.position));
-  for (const Vec3& p : inner) TRY(point.push(p));
-  TRY(refine_loops(context, spacing, loops.start, &point, &triangle));
+/* Refines a copy of the triangulation; `*sound`: whether it has area, and no needle. */
+static Status refine_copy(const Loops& loops, double spacing, const LoopMesh& coarse,
+                          Array<Vec3>* point, Array<uint32_t>* triangle, bool* sound) {
+  Context& context = point->context();
   const double perimeter = perimeter_of(loops);
-  if (!(sound_area(point.span(), triangle.span()) > k_no_area * perimeter * perimeter)) {
-    return fail(Code::patch_folded, "the border of the patch encloses no area");
+  TRY(point->copy(loops.position));
+  for (const Vec3& p : coarse.inner) TRY(point->push(p));
+  TRY(triangle->copy(coarse.triangle.span()));
+  TRY(refine_loops(context, spacing, loops.start, point, triangle));
+  *sound = sound_area(point->span(), triangle->span()) > k_no_area * perimeter * perimeter;
+  return {};
+}
+
+Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh* mesh) {
+  constexpr int k_tries = 4;
+  TRY(check_loops(loops, spacing));
+  LoopMesh coarse(context);
+  Array<Vec3> point(context);
+  Array<uint32_t> triangle(context);
+  TRY(triangulate_loops(context, loops, &coarse.inner, &coarse.triangle));
+  /* Where a border has edges far shorter than the rest the points added may line up with two others */
+  /* in a triangle that no flip removes: fewer of them do not. */
+  bool sound = false;
+  for (int k = 0; k < k_tries && !sound; ++k) {
+    TRY(refine_copy(loops, spacing * (1 << k), coarse, &point, &triangle, &sound));
   }
+  if (!sound) return fail(Code::patch_folded, "the border of the patch encloses no area");
   const size_t n = loops.position.size();
   TRY(mesh->inner.copy(point.span().part(n, point.size() - n)));
   mesh->triangle = static_cast<Array<uint32_t>&&>(triangle);
@@ -21126,12 +22611,17 @@ namespace wireskin::mesh {
 void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
                     Span<Vec3> normals) {
   for (Vec3& n : normals) n = Vec3{};
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    const Vec3& p = positions[triangles[h]];
-    const Vec3 a = positions[triangles[next_half_edge(h)]] - p;
-    const Vec3 b = positions[triangles[previous_half_edge(h)]] - p;
-    const double squares = dot(a, a) * dot(b, b);
-    if (squares > 0.0) normals[triangles[h]] += (1.0 / squares) * cross(a, b);
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t* v = &triangles[t];
+    /* Edge k runs from corner k to the next one. */
+    const Vec3 edge[3] = {positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[1]],
+                          positions[v[0]] - positions[v[2]]};
+    const double square[3] = {dot(edge[0], edge[0]), dot(edge[1], edge[1]), dot(edge[2], edge[2])};
+    for (int k = 0; k < 3; ++k) {
+      const int last = k == 0 ? 2 : k - 1;
+      const double squares = square[k] * square[last];
+      if (squares > 0.0) normals[v[k]] += (1.0 / squares) * cross(edge[k], -edge[last]);
+    }
   }
   for (Vec3& n : normals) n = unit(n);
 }
@@ -21150,13 +22640,19 @@ struct Mean {
 /* one. */
 static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> known,
                                  Span<Mean> mean, Span<double> values) {
-  for (Mean& m : mean) m = {0.0, 0};
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    const uint32_t a = triangles[h], b = triangles[next_half_edge(h)];
-    if (known[a] == known[b]) continue;
-    const uint32_t from = known[a] ? a : b, to = known[a] ? b : a;
-    mean[to].sum += values[from];
-    ++mean[to].count;
+  for (size_t v = 0; v < values.size(); ++v) {
+    if (!known[v]) mean[v] = {0.0, 0};
+  }
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const uint32_t* v = &triangles[t];
+    if (known[v[0]] == known[v[1]] && known[v[1]] == known[v[2]]) continue;  /* nearly all */
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = v[k], b = v[k == 2 ? 0 : k + 1];
+      if (known[a] == known[b]) continue;
+      const uint32_t from = known[a] ? a : b, to = known[a] ? b : a;
+      mean[to].sum += values[from];
+      ++mean[to].count;
+    }
   }
   for (size_t v = 0; v < values.size(); ++v) {
     if (known[v] || mean[v].count == 0) continue;
@@ -21945,6 +23441,13 @@ static Status check_folds(const Expectations& mesh, Span<const uint32_t> twins) 
   return {};
 }
 
+static Status check_inverted(Context& context, const Expectations& mesh) {
+  Inverted inverted;
+  TRY(find_inverted(context, mesh.position, mesh.triangle, mesh.patch, &inverted));
+  if (inverted.count == 0) return {};
+  return bad_triangle("the triangle is inverted: it faces against those round it", inverted.first);
+}
+
 Status check(Context& context, const Expectations& mesh) {
   Array<uint32_t> twins(context);
   Topology topology(context);
@@ -21959,11 +23462,85 @@ Status check(Context& context, const Expectations& mesh) {
   }
   TRY(check_positions(mesh.position));
   TRY(check_shapes(mesh));
-  return mesh.may_fold ? Status{} : check_folds(mesh, twins.span());
+  if (mesh.may_fold) return {};
+  TRY(check_folds(mesh, twins.span()));
+  return check_inverted(context, mesh);
 }
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/check.cpp ======== */
+
+/* ======== begin src/mesh/inverted.cpp ======== */
+namespace wireskin::mesh {
+
+namespace {
+
+struct FacedMesh {
+  Span<const Vec3> position;
+  Span<const uint32_t> triangle, patch;
+
+  bool same_patch(uint32_t t, uint32_t other) const {
+    return patch.empty() || patch[t] == patch[other];
+  }
+  Vec3 facing(uint32_t t) const {
+    const Vec3& a = position[triangle[3 * size_t{t}]];
+    return cross(position[triangle[3 * size_t{t} + 1]] - a,
+                 position[triangle[3 * size_t{t} + 2]] - a);
+  }
+};
+
+}  /* namespace */
+
+static bool faces_a_neighbour(const FacedMesh& mesh, Span<const uint32_t> twins, uint32_t t) {
+  for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+    if (twins[h] == k_none || !mesh.same_patch(t, twins[h] / 3)) continue;
+    if (dot(mesh.facing(t), mesh.facing(twins[h] / 3)) < 0.0) return true;
+  }
+  return false;
+}
+
+static bool is_inverted(const FacedMesh& mesh, Span<const uint32_t> start,
+                        Span<const uint32_t> corner, uint32_t t) {
+  const Vec3 own = mesh.facing(t);
+  uint32_t against = 0;
+  for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+    const uint32_t v = mesh.triangle[h];
+    Vec3 others;
+    bool any = false;
+    for (uint32_t c = start[v]; c < start[v + 1]; ++c) {
+      const uint32_t other = corner[c] / 3;
+      if (other == t || !mesh.same_patch(t, other)) continue;
+      others += mesh.facing(other);
+      any = true;
+    }
+    if (!any) continue;
+    if (!(dot(own, others) < 0.0)) return false;
+    ++against;
+  }
+  return against > 0;
+}
+
+Status find_inverted(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
+                     Span<const uint32_t> patch, Inverted* inverted) {
+  const FacedMesh mesh = {position, triangle, patch};
+  const uint32_t vertices = static_cast<uint32_t>(position.size());
+  Array<uint32_t> twins(context), start(context), corner(context), candidate(context);
+  *inverted = {};
+  TRY(find_twins(vertices, triangle, &twins));
+  for (uint32_t t = 0; t < triangle.size() / 3; ++t) {
+    if (faces_a_neighbour(mesh, twins.span(), t)) TRY(candidate.push(t));
+  }
+  if (candidate.empty()) return {};
+  TRY(find_corners(vertices, triangle, &start, &corner));
+  for (const uint32_t t : candidate) {
+    if (!is_inverted(mesh, start.span(), corner.span(), t)) continue;
+    if (inverted->count++ == 0) inverted->first = t;
+  }
+  return {};
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/inverted.cpp ======== */
 
 /* ======== begin src/mesh/cut.cpp ======== */
 namespace wireskin::mesh {
@@ -22157,11 +23734,13 @@ namespace wireskin::sparse {
 
 namespace {
 
-/* Column j of the product: the rows met so far and their sums, in a dense array marked by column. */
+/* Column j of the product: the rows met so far, `count`, and their sums, in a dense array marked by */
+/* column. */
 struct Accumulator {
   Array<uint32_t> mark;
-  Array<uint32_t> rows;
+  Array<uint32_t> rows;  /* one more than there are */
   Array<double> sum;
+  uint32_t count = 0;
 
   explicit Accumulator(Context& context) : mark(context), rows(context), sum(context) {}
 };
@@ -22192,7 +23771,10 @@ static Status pause_for_checkpoint(Context& context, size_t* work) {
 /* Weights of zero are no reason to skip an entry: the pattern must not depend on values. */
 static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
                           Accumulator* gathered, size_t* work) {
-  gathered->rows.clear();
+  uint32_t* const mark = gathered->mark.data();
+  uint32_t* const rows = gathered->rows.data();
+  double* const sum = gathered->sum.data();
+  uint32_t count = 0;
   for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
     const uint32_t inner = factors.b.row[q];
     *work += factors.a.start[inner + 1] - factors.a.start[inner];
@@ -22201,14 +23783,16 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
       if (factors.ends_at(factors.a.row[p], column)) break;
       const uint32_t i = factors.unknown[factors.a.row[p]];
       if (i == k_none) continue;
-      if (gathered->mark[i] != j) {
-        gathered->mark[i] = j;
-        gathered->sum[i] = 0.0;
-        gathered->rows.push_reserved(i);
-      }
-      gathered->sum[i] += factors.a.value[p] * scale;
+      /* Whether a row is new is hard to foresee, so it is no question for a branch. */
+      const bool fresh = mark[i] != j;
+      const double before[2] = {sum[i], 0.0};
+      mark[i] = j;
+      rows[count] = i;
+      count += fresh;
+      sum[i] = before[fresh] + factors.a.value[p] * scale;
     }
   }
+  gathered->count = count;
 }
 
 /* About the number of entries of the product, from every 32nd column. */
@@ -22220,7 +23804,7 @@ static uint64_t estimate_entries(const Factors& factors, Accumulator* gathered, 
     if (factors.unknown[column] == k_none) continue;
     if (j % k_step == 0) {
       gather_column(factors, column, j, gathered, work);
-      total += gathered->rows.size();
+      total += gathered->count;
     }
     ++j;
   }
@@ -22237,6 +23821,17 @@ static Status make_room(size_t more, size_t* room, Csc* product) {
   return product->value.reserve(*room);
 }
 
+static Status append_column(const Accumulator& gathered, Csc* product) {
+  const size_t first = product->row.size();
+  TRY(product->row.resize(first + gathered.count));
+  TRY(product->value.resize(first + gathered.count));
+  uint32_t* const row = product->row.data() + first;
+  double* const value = product->value.data() + first;
+  sort_distinct(gathered.rows.data(), gathered.count, row);
+  for (uint32_t k = 0; k < gathered.count; ++k) value[k] = gathered.sum[row[k]];
+  return {};
+}
+
 Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
                         Span<const uint32_t> unknown, uint32_t unknowns, Part part, Csc* product) {
   Context& context = product->start.context();
@@ -22245,7 +23840,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   size_t work = 0, room = 0;
   TRY(gathered.mark.assign(unknowns, k_none));
   TRY(gathered.sum.resize(unknowns));
-  TRY(gathered.rows.reserve(unknowns));
+  TRY(gathered.rows.resize(size_t{unknowns} + 1));
   TRY(product->start.resize(size_t{unknowns} + 1));
   product->rows = product->cols = unknowns;
   product->row.clear();
@@ -22256,13 +23851,9 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   for (uint32_t column = 0; column < b.cols; ++column) {
     if (unknown[column] == k_none) continue;
     gather_column(factors, column, j, &gathered, &work);
-    sort(gathered.rows.span(), [](uint32_t x, uint32_t y) { return x < y; });
-    TRY(make_room(gathered.rows.size(), &room, product));
+    TRY(make_room(gathered.count, &room, product));
     product->start[j++] = static_cast<uint32_t>(product->row.size());
-    for (const uint32_t i : gathered.rows) {
-      product->row.push_reserved(i);
-      product->value.push_reserved(gathered.sum[i]);
-    }
+    TRY(append_column(gathered, product));
     TRY(pause_for_checkpoint(context, &work));
   }
   product->start[unknowns] = static_cast<uint32_t>(product->row.size());
@@ -22542,20 +24133,16 @@ static constexpr size_t k_crowd = 64;
 /* The place of the cell (x, y) along the Hilbert curve through 2^bits x 2^bits cells. */
 static uint64_t hilbert_place(uint32_t x, uint32_t y, int bits) {
   uint64_t place = 0;
-  for (uint32_t half = 1u << (bits - 1); half > 0; half >>= 1) {
-    const uint32_t right = (x & half) != 0 ? 1u : 0u;
-    const uint32_t upper = (y & half) != 0 ? 1u : 0u;
+  for (int bit = bits - 1; bit >= 0; --bit) {
+    const uint32_t right = x >> bit & 1, upper = y >> bit & 1;
     place = 4 * place + ((3 * right) ^ upper);
-    /* The curve enters the lower quarters turned; turn the rest of the coordinates back. */
-    if (upper == 0) {
-      if (right != 0) {
-        x = ~x;
-        y = ~y;
-      }
-      const uint32_t kept = x;
-      x = y;
-      y = kept;
-    }
+    /* The curve enters the lower quarters turned; turn the rest of the coordinates back: both are */
+    /* reflected in the right one, then they change places. No branch, for none could be foreseen. */
+    const uint32_t lower = upper - 1;  /* all bits, or none */
+    const uint32_t reflected = lower & (0u - right);
+    const uint32_t kept = x ^ reflected, other = y ^ reflected;
+    x = kept ^ (lower & (kept ^ other));
+    y = other ^ (lower & (kept ^ other));
   }
   return place;
 }
@@ -23384,6 +24971,7 @@ Vec3 Beads::direction_at(const WirePlace& place) const {
   constexpr double k_step = 1.0 / 16.0;
   const uint32_t c = curve[place.edge], before = wires.previous(c, place.edge);
   if (wires.next(c, place.edge) == k_none) {
+    if (before == k_none) return {};  /* a point leads nowhere */
     return wires.position[place.edge] - point_of_place(wires, c, {before, 1.0 - k_step});
   }
   const double step = place.part + k_step < 1.0 ? k_step : -k_step;
@@ -23741,7 +25329,11 @@ Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, 
     if (closed[c] && first != last) continue;
     for (int end = 0; end < (first == last ? 1 : 2); ++end) {
       const uint32_t sample = end == 0 ? first : last;
-      if (node_of_sample[sample] != k_none) continue;
+      if (node_of_sample[sample] != k_none) {
+        Node& known = (*nodes)[node_of_sample[sample]];
+        if (first == last && known.point_curve == k_none) known.point_curve = c;
+        continue;
+      }
       node_of_sample[sample] = static_cast<uint32_t>(nodes->size());
       Node node = {samples.position[sample], samples.normal[sample], samples.number[sample]};
       if (!samples.sharp.empty() && samples.sharp[c]) {
@@ -23749,6 +25341,7 @@ Status add_loose_ends(const SampleNumbers& samples, Span<const uint8_t> closed, 
         TRY(self.push(sample));
         merge_sides(samples, self.span(), &node);
       }
+      if (first == last) node.point_curve = c;
       TRY(nodes->push(node));
     }
   }
@@ -23920,9 +25513,10 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* jud
     if (faults == nullptr) return status;
     (*faults)[h / 2] = status;
   }
-  /* What lies there is to be named as a patch that fails. */
+  /* What lies there is to be named as a patch that fails, on either side of a ring too. */
   for (uint32_t h = 0; faults != nullptr && h < halves; ++h) {
-    if (!(*faults)[h / 2].ok()) judged->outside[cycles.cycle[h]] = 0;
+    if ((*faults)[h / 2].ok()) continue;
+    judged->outside[cycles.cycle[h]] = judged->ring[cycles.cycle[h]] = 0;
   }
   return {};
 }
@@ -24161,11 +25755,9 @@ Status resample(const curves::Curves& curves, Span<const Node> nodes, const Netw
     TRY(place_vertices(curves, network, s, vertices));
     if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
   }
-  for (uint32_t c = 0; c < curves.size(); ++c) {  /* points */
-    const curves::Curve curve = curves[c];
-    if (curve.node.size() != 1 || curve.node[0] >= nodes.size()) continue;
-    uint32_t& of = vertices->curve[curve.node[0]];
-    if (of > c) of = c;
+  /* The curves' own numbers of nodes would not do: they hold before patches are dropped. */
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    if (vertices->curve[i] > nodes[i].point_curve) vertices->curve[i] = nodes[i].point_curve;
   }
   return curves.right.empty() ? Status{} : resample_sides(curves, network, vertices);
 }
@@ -24355,6 +25947,27 @@ static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, con
   return dot(gap, gap);
 }
 
+static double along_axis(const Vec3& p, uint32_t axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+static uint32_t widest_axis(Span<const Vec3> position) {
+  uint32_t widest = 0;
+  double most = -1.0;
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Vec3& p : position) {
+      const double at = along_axis(p, axis);
+      low = at < low ? at : low;
+      high = at > high ? at : high;
+    }
+    if (!(high - low > most)) continue;
+    most = high - low;
+    widest = axis;
+  }
+  return widest;
+}
+
 /* Fails where two edges without a common end touch, to within a millionth of the border's length. */
 static Status find_crossing(const Border& border, double perimeter) {
   constexpr double k_touch = 1e-6;
@@ -24366,10 +25979,23 @@ static Status find_crossing(const Border& border, double perimeter) {
       next[i] = next_on_border(border, l, i);
     }
   }
-  for (uint32_t i = 0; i < border.size(); ++i) {
+  /* Along the axis in which the border is widest an edge meets few others. */
+  const uint32_t axis = widest_axis(position);
+  Array<uint32_t> order(border.vertex.context());
+  TRY(order.resize(border.size()));
+  for (uint32_t i = 0; i < border.size(); ++i) order[i] = i;
+  const auto low = [&](uint32_t i) {
+    const double from = along_axis(position[i], axis), to = along_axis(position[next[i]], axis);
+    return from < to ? from : to;
+  };
+  sort(order.span(),
+       [&](uint32_t a, uint32_t b) { return low(a) != low(b) ? low(a) < low(b) : a < b; });
+  for (uint32_t k = 0; k < order.size(); ++k) {
+    const uint32_t i = order[k];
     const Vec3 &a = position[i], &b = position[next[i]];
-    const double own = length(b - a);
-    for (uint32_t j = i + 1; j < border.size(); ++j) {
+    const double own = length(b - a), beyond = low(i) + own + k_touch * perimeter;
+    for (uint32_t m = k + 1; m < order.size() && low(order[m]) <= beyond; ++m) {
+      const uint32_t j = order[m];
       if (j == next[i] || next[j] == i) continue;
       const Vec3 &c = position[j], &d = position[next[j]];
       if (length(c - a) > own + length(d - c) + k_touch * perimeter) continue;
@@ -24377,26 +26003,29 @@ static Status find_crossing(const Border& border, double perimeter) {
         return fail(Code::patch_folded, "the border of the patch crosses itself");
       }
     }
-    if (i % 64 == 63) TRY(next.context().checkpoint());
+    if (k % 64 == 63) TRY(next.context().checkpoint());
   }
   return {};
 }
 
-Status check_border(const Border& border) {
+bool runs_clockwise(const Border& border) {
   const Vec3 area = 0.5 * vector_area(border);
-  const Vec3 normal = mean_normal(border);
   const double perimeter = border_length(border);
   /* A disc of this perimeter has the area perimeter^2 / (4 pi); a fifth of that is no accident. The */
   /* larger part of a sphere runs clockwise, too, but its normals lean outwards. */
   constexpr double k_least_cosine = -0.55;
   const double clear_area = perimeter * perimeter / 60.0;
-  if (length(area) > clear_area && dot(unit(area), normal) < k_least_cosine) {
+  return length(area) > clear_area && dot(unit(area), mean_normal(border)) < k_least_cosine;
+}
+
+Status check_border(const Border& border) {
+  if (runs_clockwise(border)) {
     return fail(
         Code::patch_without_plane,
         "the border runs clockwise round its normals: where a surface ends, its curves must be "
         "tagged as boundary");
   }
-  TRY(find_crossing(border, perimeter));
+  TRY(find_crossing(border, border_length(border)));
   /* One turn is what a border that passes over itself asks for; a sound surface takes it up, though */
   /* not all of the normals. */
   int32_t linked = 0;
@@ -24569,7 +26198,7 @@ static bool may_be_left_out(const Status& status) {
 
 /* Adds the place to what went wrong with a patch: its number and a curve of its border. */
 static Status at_patch(Status status, const Network& network, uint32_t patch) {
-  if (!may_be_left_out(status)) return status;
+  if (!may_be_left_out(status) && status.code != Code::too_large) return status;
   status.place.patch = patch;
   if (status.place.curve == k_none) {
     status.place.curve = network.segment[network.cycle(patch)[0] / 2].curve;
@@ -24849,10 +26478,26 @@ static Status mesh_in_space(const CurveVertices& vertices, double spacing, Patch
                 "no plane shows the patch without folds, and its border passes a point twice");
   }
   TRY(mesh_border_in_space(border, spacing, &scratch->spatial));
-  if (n != rim) TRY(at_local_vertex(inlay_patch(spacing, scratch), vertices, *scratch));
+  /* A curve of a single edge from loop to loop brings no vertex. */
+  if (n != rim || !scratch->inner_edge.empty()) {
+    TRY(at_local_vertex(inlay_patch(spacing, scratch), vertices, *scratch));
+  }
   TRY(scratch->place.copy(scratch->spatial.position.span()));
   return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }
+
+#ifdef WIRESKIN_DEBUG
+/* In its plane the mesh is exact: no triangle is inverted. */
+static bool runs_counter_clockwise(const planar::PolygonMesh& mesh) {
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    if (!(orient2d(mesh.points[mesh.triangles[t]], mesh.points[mesh.triangles[t + 1]],
+                   mesh.points[mesh.triangles[t + 2]]) > 0.0)) {
+      return false;
+    }
+  }
+  return true;
+}
+#endif
 
 /* Points in line within rounding have a triangle in the plane, where they are rounded again, and */
 /* none in space. The bound is that of every mesh, with room for splits of the chords. */
@@ -24886,10 +26531,12 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
   if (status.ok()) status = check_areas(*scratch, scratch->planar.triangles.span());
   if (status.ok()) {
+    WIRESKIN_ASSERT(runs_counter_clockwise(scratch->planar));
     TRY(builder->mesh->way.push(PatchWay::plane));
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
   if (!may_be_meshed_otherwise(status)) return status;
+  TRY(check_border_size(border, spacing));
   TRY(check_border(border));
   TRY(mesh_in_space(vertices, spacing, scratch));
   TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
@@ -25183,6 +26830,173 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Ve
 }  /* namespace wireskin::network */
 /* ======== end src/network/crease.cpp ======== */
 
+/* ======== begin src/network/crossing.cpp ======== */
+namespace wireskin::network {
+
+/* Sine of the least angle between two branches that go different ways. */
+static constexpr double k_sine_of_branch = 0.17;
+
+bool run_along(const Vec3& a, const Vec3& b) {
+  return length(cross(a, b)) < k_sine_of_branch;
+}
+
+/* The point that far along the curve from a place, or the end before it. */
+static Vec3 walk(const Beads& beads, const WirePlace& from, double distance, bool forward) {
+  constexpr int k_most_steps = 64;
+  const Wires& wires = beads.wires;
+  const uint32_t c = beads.curve[from.edge];
+  WirePlace place = from;
+  for (int step = 0; step < k_most_steps; ++step) {
+    uint32_t edge = place.edge;
+    double at = place.part;
+    if (!forward && at == 0.0) {
+      edge = wires.previous(c, edge);
+      at = 1.0;
+    }
+    const uint32_t next = edge == k_none ? k_none : wires.next(c, edge);
+    if (next == k_none) break;
+    const double size = beads.edge_length(edge), rest = forward ? (1.0 - at) * size : at * size;
+    if (distance < rest)
+      return beads.point_at({edge, at + (forward ? distance : -distance) / size});
+    distance -= rest;
+    place = {forward ? next : edge, 0.0};
+  }
+  return beads.point_at(place);
+}
+
+namespace {
+
+/* The plane across the gap. */
+struct View {
+  Vec3 gap, u, v;
+  double reach;
+
+  explicit View(const Approach& approach) : gap(unit(approach.at_b - approach.at_a)) {
+    const Vec3 axis = std::fabs(gap.x) > 0.8 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+    u = unit(reject(axis, gap));
+    v = cross(gap, u);
+    reach = 2.0 * approach.distance;
+  }
+};
+
+}  /* namespace */
+
+/* The end or node that is so near that what lies between is no branch; else the place itself. */
+static WirePlace settle(const Beads& beads, const WirePlace& place, double reach) {
+  constexpr double k_near = 0.25;
+  if (place.part == 0.0) return place;
+  const uint32_t next = beads.wires.next(beads.curve[place.edge], place.edge);
+  const double size = beads.edge_length(place.edge);
+  const auto special = [&](uint32_t b, double away) {
+    return away <= k_near * reach && (beads.bead[b].ring != b || beads.is_end(b));
+  };
+  if (special(place.edge, place.part * size)) return {place.edge, 0.0};
+  return special(next, (1.0 - place.part) * size) ? WirePlace{next, 0.0} : place;
+}
+
+/* Of one of the two places. */
+struct Tip {
+  uint32_t branches = 0;  /* one: the curve ends there */
+  uint32_t seen = 0;      /* of these, not along the gap */
+  Vec3 sum;               /* of their unit directions, short where a curve goes straight on */
+  bool points = true;     /* all branches lead away from the other curve */
+};
+
+static Status add_branch(const View& view, const Vec3& way, bool of_a, Array<Branch>* branches,
+                         Tip* tip) {
+  constexpr double k_least_share = 0.5;
+  ++tip->branches;
+  tip->sum += unit(way);
+  const bool away = dot(unit(way), of_a ? view.gap : -view.gap) < -k_sine_of_branch;
+  const Vec3 seen = reject(way, view.gap);
+  if (!(length(seen) > k_least_share * length(way))) {
+    tip->points = tip->points && away;
+    return {};
+  }
+  ++tip->seen;
+  const Vec3 direction = unit(seen);
+  const double x = dot(direction, view.u), y = dot(direction, view.v);
+  const double turn = y / (std::fabs(x) + std::fabs(y));
+  return branches->push({direction, x < 0.0 ? 2.0 - turn : turn, of_a, away});
+}
+
+/* The branches of all curves at a place. */
+static Status list_branches(const Beads& beads, const View& view, const WirePlace& place, bool of_a,
+                            Array<Branch>* branches, Tip* tip) {
+  const Wires& wires = beads.wires;
+  const uint32_t first = place.edge;
+  uint32_t b = first;
+  do {
+    const WirePlace here = place.part == 0.0 ? beads.place_of(b) : place;
+    const uint32_t c = beads.curve[here.edge];
+    const Vec3 from = beads.point_at(here);
+    tip->points = tip->points && !wires.boundary[c];
+    for (int side = 0; side < 2; ++side) {
+      const bool forward = side == 1;
+      const uint32_t beyond = forward ? wires.next(c, here.edge) : wires.previous(c, here.edge);
+      if (here.part == 0.0 && beyond == k_none) continue;
+      const Vec3 way = walk(beads, here, view.reach, forward) - from;
+      TRY(add_branch(view, way, of_a, branches, tip));
+    }
+    b = beads.bead[b].ring;
+  } while (place.part == 0.0 && b != first);
+  return {};
+}
+
+static void mark_along(Span<Branch> branches) {
+  for (size_t i = 0; i < branches.size(); ++i) {
+    Branch &p = branches[i], &q = branches[(i + 1) % branches.size()];
+    if (p.of_a == q.of_a || dot(p.direction, q.direction) < 0.0) continue;
+    if (run_along(p.direction, q.direction)) p.along = q.along = true;
+  }
+}
+
+/* How often the branches change from one curve to the other, going round once. */
+static uint32_t count_changes(Span<const Branch> branches) {
+  uint32_t changes = 0;
+  const Branch *first = nullptr, *last = nullptr;
+  for (const Branch& branch : branches) {
+    if (branch.along) continue;
+    if (first == nullptr) first = &branch;
+    if (last != nullptr && last->of_a != branch.of_a) ++changes;
+    last = &branch;
+  }
+  return first != nullptr && first->of_a != last->of_a ? changes + 1 : changes;
+}
+
+Status judge_contact(const Beads& beads, const Approach& approach, Array<Branch>* scratch,
+                     Contact* contact) {
+  const View view(approach);
+  const WirePlace a = settle(beads, approach.a, view.reach);
+  const WirePlace b = settle(beads, approach.b, view.reach);
+  Tip at_a, at_b;
+  scratch->clear();
+  TRY(list_branches(beads, view, a, true, scratch, &at_a));
+  TRY(list_branches(beads, view, b, false, scratch, &at_b));
+  *contact = Contact::meets;
+  if (at_a.branches < 2 || at_b.branches < 2) return {};
+  sort(scratch->span(), [](const Branch& p, const Branch& q) {
+    if (p.turn != q.turn) return p.turn < q.turn;
+    return p.of_a && !q.of_a;
+  });
+  mark_along(scratch->span());
+  if (count_changes(scratch->span()) >= 4) return {};
+  for (const Branch& branch : *scratch) {
+    Tip& tip = branch.of_a ? at_a : at_b;
+    const Tip& other = branch.of_a ? at_b : at_a;
+    const bool leaves_line = !branch.along && other.seen == other.branches;
+    tip.points = tip.points && (branch.away || leaves_line);
+  }
+  const auto is_corner = [](const Tip& tip) {
+    return tip.points && length(tip.sum) > k_sine_of_branch * tip.branches;
+  };
+  *contact = is_corner(at_a) || is_corner(at_b) ? Contact::points : Contact::beside;
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/crossing.cpp ======== */
+
 /* ======== begin src/network/plane.cpp ======== */
 namespace wireskin::network {
 
@@ -25460,98 +27274,159 @@ double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, dou
   return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
 }
 
-Sight look(const Probe& p, Span<const Facing> facing, Span<const Probe> probes,
-           Span<const uint8_t> hidden) {
-  Sight sight;
-  for (uint32_t i = 0; i < facing.size(); ++i) {
-    const Facing& f = facing[i];
-    if (hidden[i] || length(f.centre - p.position) - f.radius > sight.distance) continue;
-    for (const Probe& q : probes.part(f.first, f.count)) {
-      const Vec3 way = q.position - p.position;
-      const double chord = length(way);
-      if (!(chord < sight.distance) || chord == 0.0) continue;
-      const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
-      const double distance = chord * 4.0 / ((1.0 + out) * (1.0 + back));
-      if (!(out > 0.0 && back > 0.0 && distance < sight.distance)) continue;
-      sight = {i, distance};
-    }
-  }
-  return sight;
-}
-
 }  /* namespace wireskin::network */
 /* ======== end src/network/facing.cpp ======== */
 
 /* ======== begin src/network/group.cpp ======== */
 namespace wireskin::network {
 
-/* Conormals must lead to the other loop with at least this cosine in the mean. */
-static constexpr double k_least_facing_cosine = 0.2;
-/* And with this one where both loops are of one component, neither of them being closed alone. */
-static constexpr double k_least_facing_in_component = 0.6;
-/* A ring whose normals agree less with its axis has no side of its own: closing it alone is no way. */
-static constexpr double k_unclear_side = 0.02;
-/* Choices whose areas differ by less than this part are equally good. */
-static constexpr double k_hardly_more = 1.1;
-/* Pieces that face their plane less clearly are asked where they lie in space. */
-static constexpr double k_clearly_facing = 0.5;
-/* A loop whose normals agree with its axis less than this is the outside of what it encloses, and */
-/* belongs to the patch round it. */
-static constexpr double k_inside_out = -0.2;
-namespace {
-
-/* What is being decided of each patch: `parent` as in union-find, reversed where the other side of */
-/* a ring was taken. */
-struct Grouping {
-  const CurveVertices& vertices;
-  Network* network;
-  Components components;
-  Array<Enclosing> enclosing;  /* of each component */
-  Array<uint32_t> component;   /* of each patch */
-  Array<uint32_t> parent;      /* of each patch */
-  Array<uint8_t> reversed;     /* of each patch */
-  Array<uint8_t> told;         /* of each patch: a ring whose side something inside it tells */
-  Array<uint32_t> holder;      /* of each component that bounds nothing: its patch */
-  Array<uint32_t> doubtful;    /* the same where another patch may be the right one */
-  Array<uint8_t> ambiguous;    /* of each patch */
-  Array<uint8_t> passed;       /* of each vertex, zero between questions */
-
-  Grouping(Context& context, const CurveVertices& of, Network* net)
-      : vertices(of),
-        network(net),
-        components(context),
-        enclosing(context),
-        component(context),
-        parent(context),
-        reversed(context),
-        told(context),
-        holder(context),
-        doubtful(context),
-        ambiguous(context),
-        passed(context) {}
-  uint32_t root(uint32_t p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
+/* A ring on its own needs normals that tell inside from outside. */
+static Status check_rings(Grouping* g) {
+  constexpr double k_no_cosine = 1e-6, k_clear_area = 1.0 / 60.0;
+  Border border(g->parent.context());
+  for (uint32_t p = 0; p < g->parent.size(); ++p) {
+    if (!g->network->ring[p] || !g->is_alone(p) || g->told[p]) continue;
+    TRY(border_of_patch(*g->network, g->vertices, p, &border));
+    double area = 0.0;
+    bool known = false;
+    for (const Vec3& n : border.normal) known = known || n != Vec3{};
+    const double cosine = closing_cosine(border, &area), perimeter = border_length(border);
+    const bool clear = area > k_clear_area * perimeter * perimeter;
+    if (!known || !clear || std::fabs(cosine) > k_no_cosine) continue;
+    Place place;
+    place.curve = g->network->segment[g->network->cycle(p)[0] / 2].curve;
+    place.sample = 0;
+    return fail(Code::open_network,
+                "the normals do not tell on which side of this boundary curve the surface lies",
+                place);
   }
-  void join(uint32_t a, uint32_t b) {
-    const uint32_t x = root(a), y = root(b);
-    (x < y ? parent[y] : parent[x]) = x < y ? x : y;
+  return {};
+}
+
+static Status check_holders(const Grouping& g, Span<const uint8_t> settled) {
+  const Network& network = *g.network;
+  for (uint32_t c = 0; c < g.holder.size(); ++c) {
+    if (g.components.bounds[c] || settled[c] || g.holder[c] != k_none) continue;
+    const uint32_t v = g.components.members[c][0];
+    Place place;
+    place.curve = g.vertices.curve[v];
+    for (const Segment& s : network.segment) {
+      const bool here = s.from != k_none && (g.components.of_vertex[s.from] == c);
+      if (here && s.curve < place.curve) place.curve = s.curve;
+    }
+    return fail(Code::open_network,
+                place.curve == k_none ? "the point lies inside no patch"
+                                      : "the curve bounds no patch and lies inside none",
+                place);
   }
-};
+  return {};
+}
 
-struct Band {
-  uint32_t a, b;
-  double area;
-};
+static void count_ambiguous(Span<const uint8_t> ambiguous, Ambiguity* ambiguity) {
+  for (uint32_t p = 0; p < ambiguous.size(); ++p) {
+    if (ambiguous[p] && ambiguity->patches++ == 0) ambiguity->first = p;
+  }
+}
 
-}  /* namespace */
+Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity* ambiguity) {
+  Ambiguity unasked;
+  Context& context = network->segment.context();
+  Grouping planes(context, vertices, network), spaces(context, vertices, network);
+  Array<uint32_t> number(context);
+  Array<uint8_t> settled(context), ambiguous(context);
+  TRY(take_components(&planes));
+  TRY(find_enclosing(*network, vertices, planes.components, &planes.enclosing));
+  TRY(join_enclosed(&planes));
+  TRY(join_in_sight(&planes));
+  TRY(join_facing(&planes));
+  TRY(rebuild(&planes, &number, &ambiguous));
+  TRY(take_components(&spaces));
+  TRY(settled.assign(planes.holder.size(), 0));
+  for (size_t c = 0; c < settled.size(); ++c) {
+    settled[c] = planes.holder[c] != k_none;
+    const uint32_t doubtful = planes.doubtful[c];
+    if (doubtful != k_none) spaces.doubtful[c] = number[doubtful];
+  }
+  for (size_t p = 0; p < ambiguous.size(); ++p) spaces.ambiguous[p] = ambiguous[p];
+  TRY(join_guests(&spaces, settled.span()));
+  TRY(check_rings(&spaces));
+  TRY(check_holders(spaces, settled.span()));
+  TRY(rebuild(&spaces, &number, &ambiguous));
+  count_ambiguous(ambiguous.span(), ambiguity != nullptr ? ambiguity : &unasked);
+  return {};
+}
 
-static Status take_components(Grouping* g) {
+}  /* namespace wireskin::network */
+/* ======== end src/network/group.cpp ======== */
+
+/* ======== begin src/network/grouping.cpp ======== */
+namespace wireskin::network {
+
+Grouping::Grouping(Context& context, const CurveVertices& of, Network* net)
+    : vertices(of),
+      network(net),
+      components(context),
+      corner(context),
+      at_corner(context),
+      enclosing(context),
+      component(context),
+      parent(context),
+      next(context),
+      reversed(context),
+      told(context),
+      holder(context),
+      doubtful(context),
+      ambiguous(context),
+      passed(context) {}
+
+void Grouping::join(uint32_t a, uint32_t b) {
+  const uint32_t x = root(a), y = root(b);
+  if (x == y) return;
+  (x < y ? parent[y] : parent[x]) = x < y ? x : y;
+  swap_values(next[x], next[y]);  /* two rings become one */
+}
+
+static Status list_corners(Grouping* g) {
+  const Network& network = *g->network;
+  Array<uint32_t> own(g->parent.context());
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    own.clear();
+    for (uint32_t h : network.cycle(p)) {
+      const uint32_t edges = g->vertices.edges[h / 2];
+      TRY(own.push(segment_vertex(network, g->vertices, h / 2, 0)));
+      TRY(own.push(segment_vertex(network, g->vertices, h / 2, edges)));
+    }
+    /* Equal numbers are equal in every way, so their order does not matter. */
+    sort(own.span(), [](uint32_t a, uint32_t b) { return a < b; });
+    for (size_t i = 0; i < own.size(); ++i) {
+      if (i == 0 || own[i] != own[i - 1]) TRY(g->corner.item.push(own[i]));
+    }
+    TRY(g->corner.close());
+  }
+  return {};
+}
+
+static Status list_patches_at_corners(Grouping* g) {
+  Lists& at = g->at_corner;
+  TRY(at.start.assign(g->vertices.position.size() + 1, 0));
+  TRY(at.item.resize(g->corner.item.size()));
+  for (uint32_t v : g->corner.item) ++at.start[v];
+  starts_from_counts(at.start.span());
+  for (uint32_t p = 0; p < g->corner.count(); ++p) {
+    for (uint32_t v : g->corner[p]) at.item[at.start[v]++] = p;
+  }
+  for (size_t v = at.start.size() - 1; v > 0; --v) at.start[v] = at.start[v - 1];
+  at.start[0] = 0;
+  return {};
+}
+
+Status take_components(Grouping* g) {
   const Network& network = *g->network;
   const uint32_t patches = network.patches();
   TRY(find_components(network, g->vertices, &g->components));
   TRY(g->component.resize(patches));
   TRY(g->parent.resize(patches));
+  TRY(g->next.resize(patches));
   TRY(g->reversed.assign(patches, 0));
   TRY(g->told.assign(patches, 0));
   TRY(g->ambiguous.assign(patches, 0));
@@ -25559,14 +27434,44 @@ static Status take_components(Grouping* g) {
   TRY(g->holder.assign(g->components.members.count(), k_none));
   TRY(g->doubtful.assign(g->components.members.count(), k_none));
   for (uint32_t p = 0; p < patches; ++p) {
-    g->parent[p] = p;
+    g->parent[p] = g->next[p] = p;
     g->component[p] =
         g->components.of_vertex[segment_vertex(network, g->vertices, network.cycle(p)[0] / 2, 0)];
   }
-  return {};
+  TRY(list_corners(g));
+  return list_patches_at_corners(g);
 }
 
-/* ---- Rule 1 ------------------------------------------------------------------------------------- */
+bool share_vertex(Grouping* g, uint32_t a, uint32_t b) {
+  bool share = g->root(a) == g->root(b);
+  if (share) return true;
+  const auto for_corners = [g](uint32_t first, const auto& act) {
+    uint32_t p = first;
+    do {
+      for (uint32_t v : g->corner[p]) act(&g->passed[v]);
+      p = g->next[p];
+    } while (p != first);
+  };
+  for_corners(a, [](uint8_t* passed) { *passed = 1; });
+  for_corners(b, [&share](uint8_t* passed) { share = share || *passed != 0; });
+  for_corners(a, [](uint8_t* passed) { *passed = 0; });
+  return share;
+}
+
+double closing_cosine(const Border& border, double* area) {
+  const Vec3 axis = vector_area(border);
+  *area = 0.5 * length(axis);
+  return dot(mean_normal(border), unit(axis));
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/grouping.cpp ======== */
+
+/* ======== begin src/network/group_enclosed.cpp ======== */
+namespace wireskin::network {
+
+/* Pieces that face their plane less clearly are asked where they lie in space. */
+static constexpr double k_clearly_facing = 0.5;
 
 /* Of each component the patches, ascending. */
 static Status list_patches(const Grouping& g, Lists* lists) {
@@ -25597,7 +27502,7 @@ static Status clockwise_patch(const Grouping& g, Span<const uint32_t> patches, c
   return {};
 }
 
-static Status join_enclosed(Grouping* g) {
+Status join_enclosed(Grouping* g) {
   const uint32_t count = g->components.members.count();
   Context& context = g->parent.context();
   Array<uint32_t> order(context);
@@ -25626,14 +27531,29 @@ static Status join_enclosed(Grouping* g) {
   return {};
 }
 
-/* ---- Rule 2 ------------------------------------------------------------------------------------- */
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_enclosed.cpp ======== */
 
-/* The cosine between normals and axis in the mean over a loop, and the area that it encloses. */
-static double closing_cosine(const Border& border, double* area) {
-  const Vec3 axis = vector_area(border);
-  *area = 0.5 * length(axis);
-  return dot(mean_normal(border), unit(axis));
-}
+/* ======== begin src/network/group_facing.cpp ======== */
+namespace wireskin::network {
+
+/* Conormals must lead to the other loop with at least this cosine in the mean. */
+static constexpr double k_least_facing_cosine = 0.2;
+/* And with this one where both loops are of one component, neither of them being closed alone. */
+static constexpr double k_least_facing_in_component = 0.6;
+/* A ring whose normals agree less with its axis has no side of its own: closing it alone is no way. */
+static constexpr double k_unclear_side = 0.02;
+/* Choices whose areas differ by less than this part are equally good. */
+static constexpr double k_hardly_more = 1.1;
+
+namespace {
+
+struct Band {
+  uint32_t a, b;
+  double area;
+};
+
+}  /* namespace */
 
 static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing>* facing,
                           Array<Probe>* probes) {
@@ -25686,30 +27606,6 @@ static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<cons
   return {};
 }
 
-/* Whether two groups are one, or have loops that pass the same vertex: a patch that meets itself */
-/* across a curve is never what normals ask for where another loop was nearer. */
-static bool share_vertex(Grouping* g, uint32_t a, uint32_t b) {
-  const Network& network = *g->network;
-  const uint32_t roots[2] = {g->root(a), g->root(b)};
-  bool share = roots[0] == roots[1];
-  for (int side = 0; side < 2 && !share; ++side) {
-    for (uint32_t p = 0; p < network.patches(); ++p) {
-      if (g->root(p) != roots[side]) continue;
-      for (uint32_t h : network.cycle(p)) {
-        const uint32_t v = segment_vertex(network, g->vertices, h / 2, 0);
-        const uint32_t w = segment_vertex(network, g->vertices, h / 2, g->vertices.edges[h / 2]);
-        if (side == 1) share = share || g->passed[v] || g->passed[w];
-        if (side == 0) g->passed[v] = g->passed[w] = 1;
-      }
-    }
-  }
-  for (uint32_t h : network.loop.item) {
-    g->passed[segment_vertex(network, g->vertices, h / 2, 0)] = 0;
-    g->passed[segment_vertex(network, g->vertices, h / 2, g->vertices.edges[h / 2])] = 0;
-  }
-  return share;
-}
-
 namespace {
 
 /* How far rule 2 has come. */
@@ -25758,7 +27654,7 @@ static bool is_ambiguous(Grouping* g, const Pairing& pairing, Span<const Band> b
   return false;
 }
 
-static Status join_facing(Grouping* g) {
+Status join_facing(Grouping* g) {
   Context& context = g->parent.context();
   Pairing pairing(context);
   Array<Probe> probes(context);
@@ -25789,145 +27685,14 @@ static Status join_facing(Grouping* g) {
   return {};
 }
 
-/* ---- The result --------------------------------------------------------------------------------- */
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_facing.cpp ======== */
 
-/* A ring on its own needs normals that tell inside from outside. */
-static Status check_rings(Grouping* g) {
-  constexpr double k_no_cosine = 1e-6, k_clear_area = 1.0 / 60.0;
-  Border border(g->parent.context());
-  Array<uint32_t> members(g->parent.context());
-  if (g->parent.empty()) return {};
-  TRY(members.assign(g->parent.size(), 0));
-  for (uint32_t p = 0; p < members.size(); ++p) ++members[g->root(p)];
-  for (uint32_t p = 0; p < members.size(); ++p) {
-    if (!g->network->ring[p] || members[g->root(p)] != 1 || g->told[p]) continue;
-    TRY(border_of_patch(*g->network, g->vertices, p, &border));
-    double area = 0.0;
-    bool known = false;
-    for (const Vec3& n : border.normal) known = known || n != Vec3{};
-    const double cosine = closing_cosine(border, &area), perimeter = border_length(border);
-    const bool clear = area > k_clear_area * perimeter * perimeter;
-    if (!known || !clear || std::fabs(cosine) > k_no_cosine) continue;
-    Place place;
-    place.curve = g->network->segment[g->network->cycle(p)[0] / 2].curve;
-    place.sample = 0;
-    return fail(Code::open_network,
-                "the normals do not tell on which side of this boundary curve the surface lies",
-                place);
-  }
-  return {};
-}
+/* ======== begin src/network/group_guests.cpp ======== */
+namespace wireskin::network {
 
-static Status check_holders(const Grouping& g, Span<const uint8_t> settled) {
-  const Network& network = *g.network;
-  for (uint32_t c = 0; c < g.holder.size(); ++c) {
-    if (g.components.bounds[c] || settled[c] || g.holder[c] != k_none) continue;
-    const uint32_t v = g.components.members[c][0];
-    Place place;
-    place.curve = g.vertices.curve[v];
-    for (const Segment& s : network.segment) {
-      const bool here = s.from != k_none && (g.components.of_vertex[s.from] == c);
-      if (here && s.curve < place.curve) place.curve = s.curve;
-    }
-    return fail(Code::open_network,
-                place.curve == k_none ? "the point lies inside no patch"
-                                      : "the curve bounds no patch and lies inside none",
-                place);
-  }
-  return {};
-}
-
-static Status append_loops(const Grouping& g, uint32_t p, Lists* loops) {
-  const Network& old = *g.network;
-  for (uint32_t l = old.patch_start[p]; l < old.patch_start[p + 1]; ++l) {
-    const Span<const uint32_t> half = old.loop[l];
-    for (size_t i = 0; i < half.size(); ++i) {
-      TRY(loops->item.push(g.reversed[p] ? opposite(half[half.size() - 1 - i]) : half[i]));
-    }
-    TRY(loops->close());
-  }
-  return {};
-}
-
-/* What lies inside each patch: the segments of its own cycle, loose pieces and points. `held` lists */
-/* the components by holder, `piece` the list of loose segments of each component. */
-static Status append_inside(const Grouping& g, uint32_t p, Span<const uint32_t> held,
-                            Span<const uint32_t> piece, Network* fresh) {
-  const Network& old = *g.network;
-  for (uint32_t s : old.inner[p]) TRY(fresh->inner.item.push(s));
-  if (old.point.count() > 0) {
-    for (uint32_t v : old.point[p]) TRY(fresh->point.item.push(v));
-  }
-  for (uint32_t c : held) {
-    if (piece[c] == k_none) {
-      TRY(fresh->point.item.push(g.components.members[c][0]));
-      continue;
-    }
-    for (uint32_t s : old.loose[piece[c]]) TRY(fresh->inner.item.push(s));
-  }
-  return {};
-}
-
-/* Sorted by holder; `start[p]` .. `start[p + 1]` are those of patch p. */
-static Status list_held(const Grouping& g, Lists* held) {
-  TRY(held->start.assign(g.parent.size() + 1, 0));
-  for (uint32_t p : g.holder) {
-    if (p != k_none) ++held->start[p];
-  }
-  TRY(held->item.resize(starts_from_counts(held->start.span())));
-  for (uint32_t c = 0; c < g.holder.size(); ++c) {
-    if (g.holder[c] != k_none) held->item[held->start[g.holder[c]]++] = c;
-  }
-  for (size_t p = held->start.size() - 1; p > 0; --p) held->start[p] = held->start[p - 1];
-  held->start[0] = 0;
-  return {};
-}
-
-/* Writes the groups as the network's patches, in the order of the least patch of each. `number`: of */
-/* each old patch the new one; `ambiguous`: of each new patch. */
-static Status rebuild(Grouping* g, Array<uint32_t>* number, Array<uint8_t>* ambiguous) {
-  Network& old = *g->network;
-  Context& context = old.segment.context();
-  Network fresh(context);
-  Lists held(context);
-  Array<uint32_t> order(context), piece(context);
-  TRY(list_held(*g, &held));
-  TRY(piece.assign(g->holder.size(), k_none));
-  for (uint32_t i = 0; i < old.loose.count(); ++i) {
-    piece[g->components.of_vertex[old.segment[old.loose[i][0]].from]] = i;
-  }
-  TRY(order.resize(old.patches()));
-  TRY(number->resize(old.patches()));
-  ambiguous->clear();
-  for (uint32_t p = 0; p < order.size(); ++p) order[p] = p;
-  sort(order.span(), [&](uint32_t a, uint32_t b) {
-    const uint32_t x = g->root(a), y = g->root(b);
-    return x != y ? x < y : a < b;
-  });
-  TRY(fresh.patch_start.push(0));
-  for (size_t first = 0, end = 0; first < order.size(); first = end) {
-    uint8_t any = 0;
-    while (end < order.size() && g->root(order[end]) == g->root(order[first])) {
-      const uint32_t p = order[end++];
-      any |= g->ambiguous[p];
-      (*number)[p] = fresh.patches();
-      TRY(append_loops(*g, p, &fresh.loop));
-      TRY(append_inside(*g, p, held[p], piece.span(), &fresh));
-    }
-    TRY(ambiguous->push(any));
-    TRY(fresh.patch_start.push(fresh.loop.count()));
-    TRY(fresh.ring.push(end - first == 1 ? old.ring[order[first]] : uint8_t{0}));
-    TRY(fresh.inner.close());
-    TRY(fresh.point.close());
-    TRY(context.checkpoint());
-  }
-  fresh.segment = static_cast<Array<Segment>&&>(old.segment);
-  fresh.loose = static_cast<Lists&&>(old.loose);
-  old = static_cast<Network&&>(fresh);
-  return {};
-}
-
-/* ---- Rule 3 ------------------------------------------------------------------------------------- */
+/* A loop that lies on a patch faces the way the patch does. */
+static constexpr double k_least_facing_of_loop = 0.5;
 
 namespace {
 
@@ -26014,8 +27779,8 @@ static uint32_t host_of(Grouping* g, const Guest& guest, const Border& border,
   constexpr double k_farthest_piece = 0.5, k_farthest_loop = 0.25;
   const bool loop = guest.patch != k_none;
   const Piece piece = {loop ? border.vertex.span() : g->components.members[guest.component],
-                       loop ? k_farthest_loop : k_farthest_piece, loop ? k_clearly_facing : 0.0,
-                       guest.patch};
+                       loop ? k_farthest_loop : k_farthest_piece,
+                       loop ? k_least_facing_of_loop : 0.0, guest.patch};
   const uint32_t found = nearest_patch(g->vertices, piece, guesses);
   if (found == k_none) return k_none;
   const uint32_t host = guesses.patch[found].number / 2, side = guesses.patch[found].number % 2;
@@ -26028,7 +27793,7 @@ static uint32_t host_of(Grouping* g, const Guest& guest, const Border& border,
   return host;
 }
 
-static Status join_guests(Grouping* g, Span<const uint8_t> settled) {
+Status join_guests(Grouping* g, Span<const uint8_t> settled) {
   Context& context = g->parent.context();
   Array<Guest> guests(context);
   Array<uint8_t> clockwise(context), turned(context);
@@ -26055,103 +27820,405 @@ static Status join_guests(Grouping* g, Span<const uint8_t> settled) {
   return {};
 }
 
-/* ---- Rule 4 ------------------------------------------------------------------------------------- */
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_guests.cpp ======== */
 
-/* The loop of the group that most places of loop `own` look at, k_none where no group has most of */
-/* them; `area`: about what the surface between has. */
-static uint32_t loop_in_sight(Grouping* g, uint32_t own, Span<const Facing> facing,
-                              Span<const Probe> probes, Span<const uint8_t> hidden,
-                              Span<double> votes, double* area) {
-  constexpr double k_most = 0.5;
-  double total = 0.0;
-  *area = 0.0;
-  for (double& v : votes) v = 0.0;
-  for (const Probe& p : probes.part(facing[own].first, facing[own].count)) {
-    const Sight sight = look(p, facing, probes, hidden);
-    total += p.share;
-    if (sight.loop == k_none) continue;
-    votes[g->root(facing[sight.loop].patch)] += p.share;
-    *area += p.share * sight.distance;
-  }
-  for (uint32_t i = 0; i < facing.size(); ++i) {
-    if (votes[g->root(facing[i].patch)] > k_most * total) return i;
-  }
-  return k_none;
+/* ======== begin src/network/group_sight.cpp ======== */
+namespace wireskin::network {
+
+/* A disc inside a loop that asks has at least this curvature. */
+static constexpr double k_least_curvature = 2.5;
+/* What is seen by fewer of a loop's places, or at a lower mean cosine, is not asked for. */
+static constexpr double k_sight_share = 0.1, k_sight_cosine = 0.25;
+/* Of the evidence: against joining, for a short way, for the loop's curvature, for what is spared. */
+static constexpr double k_against = 0.45, k_for_way = 0.8, k_for_curvature = 0.5,
+                        k_for_spared = 0.6;
+/* Less evidence than this may as well be none. */
+static constexpr double k_clear_evidence = 0.1;
+
+namespace {
+
+/* What one loop sees of a group, summed over its places as shares of them. */
+struct Tally {
+  uint32_t loop = k_none;  /* the first one seen of the group */
+  double share = 0.0, cosine = 0.0, way = 0.0;
+};
+
+struct Match {
+  uint32_t from, to;  /* loops */
+  double evidence;
+};
+
+struct Lookout {
+  Grouping* g;
+  SightMap map;
+  Array<double> cap;         /* of each loop: the area of the cap over it, by its length */
+  Array<uint8_t> asks;       /* of each loop */
+  Array<uint8_t> stale;      /* of each loop that asks: it must look again */
+  Array<Sight> seen;         /* of each place */
+  Array<uint32_t> first;     /* of each patch: its first loop; the others follow */
+  Array<double> curvature;   /* of each root */
+  Array<uint8_t> undecided;  /* of each patch: a ring that may turn over yet */
+  Array<uint8_t> hidden;     /* of each loop, zero between questions */
+  Array<uint32_t> covered;   /* the loops hidden */
+  Array<Tally> tally;        /* of each root, empty between questions */
+  Array<uint32_t> counted;   /* the roots tallied */
+  Array<Match> match;        /* of each loop: the best one */
+
+  Lookout(Context& context, Grouping* grouping)
+      : g(grouping),
+        map(context, grouping->corner),
+        cap(context),
+        asks(context),
+        stale(context),
+        seen(context),
+        first(context),
+        curvature(context),
+        undecided(context),
+        hidden(context),
+        covered(context),
+        tally(context),
+        counted(context),
+        match(context) {}
+};
+
+}  /* namespace */
+
+/* Whether a patch is a loop that looks for others. */
+static bool asks_for_others(const Grouping& g, uint32_t p, const Border& border) {
+  return !g.network->ring[p] && g.is_alone(p) && border.loops() == 1 &&
+         curvature_inside(border, 0) >= k_least_curvature && knows_normals(border, 0);
 }
 
-static Status join_in_sight(Grouping* g) {
-  const Network& network = *g->network;
-  Context& context = g->parent.context();
-  Array<Facing> facing(context);
-  Array<Probe> probes(context);
-  Array<double> cosine(context), votes(context);
-  Array<uint8_t> hidden(context);
-  Border border(context);
-  for (uint32_t p = 0; p < network.patches(); ++p) {
-    if (network.ring[p]) continue;
-    TRY(border_of_patch(network, g->vertices, p, &border));
-    double area = 0.0;
-    const double closing = closing_cosine(border, &area);
-    for (uint32_t l = 0; l < border.loops(); ++l) {
-      TRY(add_facing(border, l, p, false, closing, area, &facing, &probes));
-      /* Loops that are together already look for nothing more. */
-      TRY(cosine.push(border.loops() == 1 ? closing : 1.0));
-    }
-    TRY(context.checkpoint());
-  }
-  TRY(hidden.resize(facing.size()));
-  TRY(votes.assign(network.patches(), 0.0));
-  for (uint32_t i = 0; i < facing.size(); ++i) {
-    if (!(cosine[i] < k_inside_out)) continue;
-    for (uint32_t j = 0; j < facing.size(); ++j) {
-      hidden[j] = share_vertex(g, facing[i].patch, facing[j].patch);
-    }
-    double area = 0.0;
-    const uint32_t j =
-        loop_in_sight(g, i, facing.span(), probes.span(), hidden.span(), votes.span(), &area);
-    TRY(context.checkpoint());
-    if (j == k_none || !(area < facing[i].alone)) continue;
-    g->join(facing[i].patch, facing[j].patch);
+/* Most networks have no loop that asks, and need no places. */
+static Status find_any_that_asks(const Grouping& g, bool* any) {
+  Border border(g.parent.context());
+  *any = false;
+  for (uint32_t p = 0; p < g.network->patches() && !*any; ++p) {
+    TRY(border_of_patch(*g.network, g.vertices, p, &border));
+    *any = asks_for_others(g, p, border);
+    if (p % 64 == 63) TRY(border.vertex.context().checkpoint());
   }
   return {};
 }
 
-static void count_ambiguous(Span<const uint8_t> ambiguous, Ambiguity* ambiguity) {
-  for (uint32_t p = 0; p < ambiguous.size(); ++p) {
-    if (ambiguous[p] && ambiguity->patches++ == 0) ambiguity->first = p;
+/* Adds the loops of a patch, those of an undecided ring by both sides. */
+static Status add_patch(uint32_t p, Border* border, Lookout* out) {
+  const Grouping& g = *out->g;
+  TRY(border_of_patch(*g.network, g.vertices, p, border));
+  double area = 0.0;
+  const double cosine = closing_cosine(*border, &area), perimeter = border_length(*border);
+  const bool asks = asks_for_others(g, p, *border);
+  TRY(out->first.push(static_cast<uint32_t>(out->map.loop.size())));
+  out->curvature[p] = -4.0 * k_pi * (border->loops() - 1);
+  out->undecided[p] = g.network->ring[p] && g.is_alone(p) && border->loops() == 1;
+  for (uint32_t l = 0; l < border->loops(); ++l) {
+    for (int side = 0; side < 2; ++side) {
+      if (out->undecided[p] ? false : side != g.reversed[p]) continue;
+      TRY(add_sight_loop(*border, l, p, side != 0, &out->map));
+      const SightLoop& loop = out->map.loop.back();
+      const double least = larger(1.0 + (side == 0 ? cosine : -cosine), 1e-3);
+      TRY(out->cap.push(8.0 * area / (least * least * least) / perimeter));
+      TRY(out->asks.push(asks));
+      if (side == g.reversed[p]) out->curvature[p] += loop.curvature;
+    }
+  }
+  return {};
+}
+
+static Status take_loops(Lookout* out) {
+  Grouping* g = out->g;
+  const uint32_t patches = g->network->patches();
+  Border border(g->parent.context());
+  TRY(out->curvature.assign(patches, 0.0));
+  TRY(out->undecided.assign(patches, 0));
+  TRY(out->tally.assign(patches, Tally{}));
+  for (uint32_t p = 0; p < patches; ++p) {
+    TRY(add_patch(p, &border, out));
+    if (p % 64 == 63) TRY(border.vertex.context().checkpoint());
+  }
+  TRY(out->first.push(static_cast<uint32_t>(out->map.loop.size())));
+  for (uint32_t p = 0; p < patches; ++p) {
+    const uint32_t r = g->root(p);
+    if (r != p) out->curvature[r] += out->curvature[p] - 4.0 * k_pi;
+  }
+  const size_t loops = out->map.loop.size();
+  TRY(out->hidden.assign(loops, 0));
+  TRY(out->match.assign(loops, Match{k_none, k_none, 0.0}));
+  TRY(out->stale.copy(out->asks.span()));
+  return out->seen.assign(out->map.place.size(), Sight{});
+}
+
+/* Hides the loops of all groups that meet the group of patch p at a vertex. */
+static Status hide_neighbours(uint32_t p, Lookout* out) {
+  Grouping* g = out->g;
+  uint32_t own = p;
+  do {
+    for (uint32_t v : g->corner[own]) {
+      for (uint32_t q : g->at_corner[v]) {
+        if (g->root(q) == g->root(p) || out->hidden[out->first[q]]) continue;
+        uint32_t other = q;
+        do {
+          for (uint32_t l = out->first[other]; l < out->first[other + 1]; ++l) {
+            out->hidden[l] = 1;
+            TRY(out->covered.push(l));
+          }
+          other = g->next[other];
+        } while (other != q);
+      }
+    }
+    own = g->next[own];
+  } while (own != p);
+  return {};
+}
+
+static Status look_round(uint32_t l, Lookout* out) {
+  const SightLoop& loop = out->map.loop[l];
+  TRY(hide_neighbours(loop.patch, out));
+  for (uint32_t i = loop.first; i < loop.first + loop.count; ++i) {
+    out->seen[i] = look(&out->map, i, out->hidden.span());
+  }
+  for (uint32_t h : out->covered) out->hidden[h] = 0;
+  out->covered.clear();
+  return out->seen.context().checkpoint();
+}
+
+/* The curvature of what lies inside a loop's group if that side of a ring is taken. */
+static double curvature_of(Lookout* out, uint32_t loop) {
+  const SightLoop& l = out->map.loop[loop];
+  return out->undecided[l.patch] ? l.curvature : out->curvature[out->g->root(l.patch)];
+}
+
+/* The amount of curvature of the group alone; a ring takes the side with less. */
+static double least_curvature(Lookout* out, uint32_t loop) {
+  const SightLoop& l = out->map.loop[loop];
+  const double own = std::fabs(curvature_of(out, loop));
+  if (!out->undecided[l.patch]) return own;
+  return smaller(own, std::fabs(4.0 * k_pi - l.curvature));
+}
+
+static double evidence_for(Lookout* out, uint32_t from, const Tally& t) {
+  const double cap = larger(out->cap[from], DBL_MIN);
+  const double joint = std::fabs(curvature_of(out, from) + curvature_of(out, t.loop) - 4.0 * k_pi);
+  const double spared = least_curvature(out, from) + least_curvature(out, t.loop) - joint;
+  const double own = smaller(out->map.loop[from].curvature / (2.0 * k_pi), 1.0);
+  return t.cosine + k_for_way / (1.0 + 0.5 * t.way / (t.share * cap)) + k_for_curvature * own +
+         k_for_spared * spared / (4.0 * k_pi) - k_against;
+}
+
+/* Sums up what loop l sees of each group; of an undecided ring by the side seen first. */
+static Status count_seen(uint32_t l, Lookout* out) {
+  Grouping* g = out->g;
+  const SightLoop& loop = out->map.loop[l];
+  const uint32_t own = g->root(loop.patch);
+  for (const Sight& s : out->seen.span().part(loop.first, loop.count)) {
+    if (s.loop == k_none) continue;
+    const SightLoop& other = out->map.loop[s.loop];
+    const uint32_t r = g->root(other.patch);
+    const bool turned_away = g->network->ring[other.patch] && !out->undecided[other.patch] &&
+                             other.reversed != (g->reversed[other.patch] != 0);
+    if (r == own || turned_away) continue;
+    Tally* t = &out->tally[r];
+    if (t->loop == k_none) {
+      t->loop = s.loop;
+      TRY(out->counted.push(r));
+    }
+    if (out->undecided[r] && t->loop != s.loop) continue;
+    t->share += 1.0 / loop.count;
+    t->cosine += s.cosine / loop.count;
+    t->way += s.way / loop.count;
+  }
+  return {};
+}
+
+/* The group that loop l is to be joined with for the greatest evidence. */
+static Status find_match(uint32_t l, Lookout* out) {
+  Match* best = &out->match[l];
+  *best = {l, k_none, 0.0};
+  TRY(count_seen(l, out));
+  for (uint32_t r : out->counted) {
+    const Tally t = out->tally[r];
+    out->tally[r] = Tally{};
+    if (t.share < k_sight_share || t.cosine < k_sight_cosine * t.share) continue;
+    const double evidence = evidence_for(out, l, t);
+    if (evidence > best->evidence) *best = {l, t.loop, evidence};
+  }
+  out->counted.clear();
+  return {};
+}
+
+static void join_loops(const Match& match, Lookout* out) {
+  Grouping* g = out->g;
+  const double joint = curvature_of(out, match.from) + curvature_of(out, match.to) - 4.0 * k_pi;
+  const uint32_t loops[2] = {match.from, match.to};
+  for (uint32_t l : loops) {
+    const SightLoop& loop = out->map.loop[l];
+    if (out->undecided[loop.patch]) g->reversed[loop.patch] = loop.reversed;
+    out->undecided[loop.patch] = 0;
+    if (match.evidence < k_clear_evidence) g->ambiguous[loop.patch] = 1;
+  }
+  const uint32_t a = out->map.loop[match.from].patch, b = out->map.loop[match.to].patch;
+  g->join(a, b);
+  out->curvature[g->root(a)] = joint;
+}
+
+/* Joins the best matches of groups that nothing was joined to in this round; `changed`: of each */
+/* patch, whether its group was. */
+static Status join_matches(Lookout* out, Array<uint8_t>* changed, bool* any) {
+  Grouping* g = out->g;
+  Array<Match> order(changed->context());
+  TRY(changed->assign(g->parent.size(), 0));
+  for (const Match& m : out->match) {
+    if (m.to != k_none) TRY(order.push(m));
+  }
+  sort(order.span(), [](const Match& x, const Match& y) {
+    return x.evidence != y.evidence ? x.evidence > y.evidence : x.from < y.from;
+  });
+  *any = !order.empty();
+  for (const Match& m : order) {
+    const uint32_t a = g->root(out->map.loop[m.from].patch);
+    const uint32_t b = g->root(out->map.loop[m.to].patch);
+    if ((*changed)[a] || (*changed)[b]) continue;
+    join_loops(m, out);
+    (*changed)[a] = (*changed)[b] = 1;
+  }
+  return {};
+}
+
+/* Loops look again whose own group was joined to another one, or that see one that was. */
+static void forget_changed(Span<const uint8_t> changed, Lookout* out) {
+  Grouping* g = out->g;
+  for (uint32_t l = 0; l < out->map.loop.size(); ++l) {
+    if (!out->asks[l]) continue;
+    const SightLoop& loop = out->map.loop[l];
+    bool stale = changed[g->root(loop.patch)] != 0;
+    for (const Sight& s : out->seen.span().part(loop.first, loop.count)) {
+      stale = stale || (s.loop != k_none && changed[g->root(out->map.loop[s.loop].patch)]);
+    }
+    out->stale[l] = stale;
   }
 }
 
-Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity* ambiguity) {
-  Ambiguity unasked;
-  Context& context = network->segment.context();
-  Grouping planes(context, vertices, network), spaces(context, vertices, network);
-  Array<uint32_t> number(context);
-  Array<uint8_t> settled(context), ambiguous(context);
-  TRY(take_components(&planes));
-  TRY(find_enclosing(*network, vertices, planes.components, &planes.enclosing));
-  TRY(join_enclosed(&planes));
-  TRY(join_facing(&planes));
-  TRY(rebuild(&planes, &number, &ambiguous));
-  TRY(take_components(&spaces));
-  TRY(settled.assign(planes.holder.size(), 0));
-  for (size_t c = 0; c < settled.size(); ++c) {
-    settled[c] = planes.holder[c] != k_none;
-    const uint32_t doubtful = planes.doubtful[c];
-    if (doubtful != k_none) spaces.doubtful[c] = number[doubtful];
+Status join_in_sight(Grouping* g) {
+  Context& context = g->parent.context();
+  Lookout out(context, g);
+  Array<uint8_t> changed(context);
+  bool any = false;
+  TRY(find_any_that_asks(*g, &any));
+  if (!any) return {};
+  TRY(take_loops(&out));
+  TRY(build_sight_tree(&out.map));
+  while (any) {
+    for (uint32_t l = 0; l < out.map.loop.size(); ++l) {
+      if (!out.stale[l]) continue;
+      TRY(look_round(l, &out));
+      TRY(find_match(l, &out));
+    }
+    TRY(join_matches(&out, &changed, &any));
+    forget_changed(changed.span(), &out);
+    TRY(context.checkpoint());
   }
-  for (size_t p = 0; p < ambiguous.size(); ++p) spaces.ambiguous[p] = ambiguous[p];
-  TRY(join_guests(&spaces, settled.span()));
-  TRY(join_in_sight(&spaces));
-  TRY(check_rings(&spaces));
-  TRY(check_holders(spaces, settled.span()));
-  TRY(rebuild(&spaces, &number, &ambiguous));
-  count_ambiguous(ambiguous.span(), ambiguity != nullptr ? ambiguity : &unasked);
   return {};
 }
 
 }  /* namespace wireskin::network */
-/* ======== end src/network/group.cpp ======== */
+/* ======== end src/network/group_sight.cpp ======== */
+
+/* ======== begin src/network/regroup.cpp ======== */
+namespace wireskin::network {
+
+static Status append_loops(const Grouping& g, uint32_t p, Lists* loops) {
+  const Network& old = *g.network;
+  for (uint32_t l = old.patch_start[p]; l < old.patch_start[p + 1]; ++l) {
+    const Span<const uint32_t> half = old.loop[l];
+    for (size_t i = 0; i < half.size(); ++i) {
+      TRY(loops->item.push(g.reversed[p] ? opposite(half[half.size() - 1 - i]) : half[i]));
+    }
+    TRY(loops->close());
+  }
+  return {};
+}
+
+/* What lies inside each patch: the segments of its own cycle, loose pieces and points. `held` lists */
+/* the components by holder, `piece` the list of loose segments of each component. */
+static Status append_inside(const Grouping& g, uint32_t p, Span<const uint32_t> held,
+                            Span<const uint32_t> piece, Network* fresh) {
+  const Network& old = *g.network;
+  for (uint32_t s : old.inner[p]) TRY(fresh->inner.item.push(s));
+  if (old.point.count() > 0) {
+    for (uint32_t v : old.point[p]) TRY(fresh->point.item.push(v));
+  }
+  for (uint32_t c : held) {
+    if (piece[c] == k_none) {
+      TRY(fresh->point.item.push(g.components.members[c][0]));
+      continue;
+    }
+    for (uint32_t s : old.loose[piece[c]]) TRY(fresh->inner.item.push(s));
+  }
+  return {};
+}
+
+/* Sorted by holder; `start[p]` .. `start[p + 1]` are those of patch p. */
+static Status list_held(const Grouping& g, Lists* held) {
+  TRY(held->start.assign(g.parent.size() + 1, 0));
+  for (uint32_t p : g.holder) {
+    if (p != k_none) ++held->start[p];
+  }
+  TRY(held->item.resize(starts_from_counts(held->start.span())));
+  for (uint32_t c = 0; c < g.holder.size(); ++c) {
+    if (g.holder[c] != k_none) held->item[held->start[g.holder[c]]++] = c;
+  }
+  for (size_t p = held->start.size() - 1; p > 0; --p) held->start[p] = held->start[p - 1];
+  held->start[0] = 0;
+  return {};
+}
+
+/* Writes the groups as the network's patches, in the order of the least patch of each. `number`: of */
+/* each old patch the new one; `ambiguous`: of each new patch. */
+Status rebuild(Grouping* g, Array<uint32_t>* number, Array<uint8_t>* ambiguous) {
+  Network& old = *g->network;
+  Context& context = old.segment.context();
+  Network fresh(context);
+  Lists held(context);
+  Array<uint32_t> order(context), piece(context);
+  TRY(list_held(*g, &held));
+  TRY(piece.assign(g->holder.size(), k_none));
+  for (uint32_t i = 0; i < old.loose.count(); ++i) {
+    piece[g->components.of_vertex[old.segment[old.loose[i][0]].from]] = i;
+  }
+  TRY(order.resize(old.patches()));
+  TRY(number->resize(old.patches()));
+  ambiguous->clear();
+  for (uint32_t p = 0; p < order.size(); ++p) order[p] = p;
+  sort(order.span(), [&](uint32_t a, uint32_t b) {
+    const uint32_t x = g->root(a), y = g->root(b);
+    return x != y ? x < y : a < b;
+  });
+  TRY(fresh.patch_start.push(0));
+  for (size_t first = 0, end = 0; first < order.size(); first = end) {
+    uint8_t any = 0;
+    while (end < order.size() && g->root(order[end]) == g->root(order[first])) {
+      const uint32_t p = order[end++];
+      any |= g->ambiguous[p];
+      (*number)[p] = fresh.patches();
+      TRY(append_loops(*g, p, &fresh.loop));
+      TRY(append_inside(*g, p, held[p], piece.span(), &fresh));
+    }
+    TRY(ambiguous->push(any));
+    TRY(fresh.patch_start.push(fresh.loop.count()));
+    TRY(fresh.ring.push(end - first == 1 ? old.ring[order[first]] : uint8_t{0}));
+    TRY(fresh.inner.close());
+    TRY(fresh.point.close());
+    TRY(context.checkpoint());
+  }
+  fresh.segment = static_cast<Array<Segment>&&>(old.segment);
+  fresh.loose = static_cast<Lists&&>(old.loose);
+  old = static_cast<Network&&>(fresh);
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/regroup.cpp ======== */
 
 /* ======== begin src/network/nearest_patch.cpp ======== */
 namespace wireskin::network {
@@ -26282,6 +28349,259 @@ uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/nearest_patch.cpp ======== */
+
+/* ======== begin src/network/sight.cpp ======== */
+namespace wireskin::network {
+
+/* So many vertices of a loop at most look. */
+static constexpr uint32_t k_most_places = 32;
+static constexpr uint32_t k_places_in_leaf = 8;
+/* So many times its own length a loop looks ahead: 25 radii of a tube. */
+static constexpr double k_reach = 4.0;
+/* A place sees its own loop where both look at each other with more than this cosine: what is */
+/* beside it on a smooth loop is seen with a cosine near zero. */
+static constexpr double k_least_own_cosine = 0.2;
+
+/* How far the loop turns to the left within its surface, all the way round. */
+static double total_turning(const Border& border, uint32_t loop) {
+  double sum = 0.0;
+  for (uint32_t i = border.start[loop]; i < border.start[loop + 1]; ++i) {
+    const uint32_t j = next_on_border(border, loop, i), k = next_on_border(border, loop, j);
+    const Vec3& n = border.normal[j];
+    const Vec3 before = reject(border.position[j] - border.position[i], n);
+    const Vec3 behind = reject(border.position[k] - border.position[j], n);
+    sum += arc_tangent(dot(cross(before, behind), n), dot(before, behind));
+  }
+  return sum;
+}
+
+static double length_of_loop(const Border& border, uint32_t loop) {
+  double sum = 0.0;
+  for (uint32_t i = border.start[loop]; i < border.start[loop + 1]; ++i) {
+    sum += length(border.position[next_on_border(border, loop, i)] - border.position[i]);
+  }
+  return sum;
+}
+
+double curvature_inside(const Border& border, uint32_t loop) {
+  return 2.0 * k_pi - total_turning(border, loop);
+}
+
+bool knows_normals(const Border& border, uint32_t loop) {
+  bool known = true;
+  for (uint32_t i = border.start[loop]; i < border.start[loop + 1]; ++i) {
+    known = known && border.normal[i] != Vec3{};
+  }
+  return known;
+}
+
+Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool reversed,
+                      SightMap* map) {
+  const uint32_t start = border.start[loop], n = border.start[loop + 1] - start;
+  const uint32_t count = n < k_most_places ? n : k_most_places;
+  const uint32_t own = static_cast<uint32_t>(map->loop.size());
+  const double inside = curvature_inside(border, loop);
+  const SightLoop added = {patch,
+                           reversed,
+                           static_cast<uint32_t>(map->place.size()),
+                           count,
+                           reversed ? 4.0 * k_pi - inside : inside,
+                           k_reach * length_of_loop(border, loop)};
+  for (uint32_t k = 0; k < count; ++k) {
+    const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
+    const Vec3& next = border.position[start + (i + 1 < n ? i + 1 : 0)];
+    const Vec3& before = border.position[start + (i > 0 ? i - 1 : n - 1)];
+    const Vec3& normal = border.normal[start + i];
+    const Vec3 conormal = unit(cross(normal, next - before));
+    TRY(map->place.push(
+        {border.position[start + i], reversed ? -conormal : conormal, normal, own}));
+  }
+  return map->loop.push(added);
+}
+
+/* ---- The tree ----------------------------------------------------------------------------------- */
+
+static double coordinate(const Vec3& p, int axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+static SightBox box_of(const SightMap& map, uint32_t first, uint32_t count) {
+  SightBox box = {map.place[map.order[first]].position, {}, first, count, k_none};
+  box.high = box.low;
+  for (uint32_t v : map.order.span().part(first, count)) {
+    const Vec3& p = map.place[v].position;
+    box.low = {smaller(box.low.x, p.x), smaller(box.low.y, p.y), smaller(box.low.z, p.z)};
+    box.high = {larger(box.high.x, p.x), larger(box.high.y, p.y), larger(box.high.z, p.z)};
+  }
+  return box;
+}
+
+/* Sorts the places of a box along its longest side. */
+static void sort_box(const SightBox& box, SightMap* map) {
+  const Vec3 side = box.high - box.low;
+  const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+  sort(map->order.span().part(box.first, box.count), [map, axis](uint32_t a, uint32_t b) {
+    const double x = coordinate(map->place[a].position, axis);
+    const double y = coordinate(map->place[b].position, axis);
+    return x != y ? x < y : a < b;
+  });
+}
+
+namespace {
+
+struct SightSplit {
+  uint32_t first, count;
+  uint32_t parent;  /* whose second child this is, or k_none */
+};
+
+}  /* namespace */
+
+Status build_sight_tree(SightMap* map) {
+  Context& context = map->place.context();
+  const uint32_t n = static_cast<uint32_t>(map->place.size());
+  Array<SightSplit> split(context);
+  TRY(map->nearest.assign(n, -1.0));
+  TRY(map->order.resize(n));
+  for (uint32_t i = 0; i < n; ++i) map->order[i] = i;
+  if (n > 0) TRY(split.push({0, n, k_none}));
+  while (!split.empty()) {
+    const SightSplit todo = split[split.size() - 1];
+    split.pop();
+    const uint32_t own = static_cast<uint32_t>(map->box.size());
+    const SightBox box = box_of(*map, todo.first, todo.count);
+    if (todo.parent != k_none) map->box[todo.parent].second = own;
+    TRY(map->box.push(box));
+    if (todo.count <= k_places_in_leaf) continue;
+    sort_box(box, map);
+    const uint32_t half = todo.count / 2;
+    TRY(split.push({todo.first + half, todo.count - half, own}));
+    TRY(split.push({todo.first, half, k_none}));
+    if (todo.count > 4096) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+/* ---- Looking ------------------------------------------------------------------------------------ */
+
+double way_between(const SightPlace& p, const SightPlace& q) {
+  const Vec3 way = q.position - p.position;
+  const double chord = length(way);
+  if (chord == 0.0) return -1.0;
+  const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
+  const double least = p.loop == q.loop ? k_least_own_cosine : 0.0;
+  if (!(out > least && back > least)) return -1.0;
+  /* Along the way the conormal turns into the chord and on; the normal is carried along. */
+  const auto carry = [](const Vec3& n, const Vec3& from, const Vec3& to) {
+    const Vec3 axis = cross(from, to);
+    return dot(from, to) * n + cross(axis, n) + (dot(axis, n) / (1.0 + dot(from, to))) * axis;
+  };
+  const Vec3 along = (1.0 / chord) * way;
+  const Vec3 carried = carry(carry(p.normal, p.conormal, along), along, -q.conormal);
+  const double twist = dot(carried, q.normal);
+  if (!(twist > 0.0)) return -1.0;
+  return chord * 8.0 / ((1.0 + out) * (1.0 + back) * (1.0 + twist));
+}
+
+static bool have_common(Span<const uint32_t> a, Span<const uint32_t> b) {
+  size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (a[i] == b[j]) return true;
+    if (a[i] < b[j]) {
+      ++i;
+    } else {
+      ++j;
+    }
+  }
+  return false;
+}
+
+/* Whether loop b may be what is seen from loop a: its own, or one that passes no vertex of it. */
+static bool may_see(const SightMap& map, uint32_t a, uint32_t b) {
+  const uint32_t p = map.loop[a].patch, q = map.loop[b].patch;
+  return a == b || (p != q && !have_common(map.corner[p], map.corner[q]));
+}
+
+static double distance_to_box(const SightBox& box, const Vec3& p) {
+  const auto beyond = [](double low, double x, double high) {
+    return larger(larger(low - x, x - high), 0.0);
+  };
+  return length(Vec3{beyond(box.low.x, p.x, box.high.x), beyond(box.low.y, p.y, box.high.y),
+                     beyond(box.low.z, p.z, box.high.z)});
+}
+
+/* Whether all of a box lies behind a place. */
+static bool is_behind(const SightBox& box, const SightPlace& p) {
+  const Vec3& c = p.conormal;
+  const Vec3 farthest = {c.x > 0.0 ? box.high.x : box.low.x, c.y > 0.0 ? box.high.y : box.low.y,
+                         c.z > 0.0 ? box.high.z : box.low.z};
+  return !(dot(c, farthest - p.position) > 0.0);
+}
+
+namespace {
+
+struct Seen {
+  uint32_t place = k_none;
+  double way = DBL_MAX;
+};
+
+}  /* namespace */
+
+/* The place with the least way within the reach of a place's loop, as `measure(q, limit)` gives it: */
+/* no less than the distance, and DBL_MAX where q is not seen or the way is no shorter than the */
+/* limit. */
+template <typename Measure>
+static Seen search_sight(const SightMap& map, const SightPlace& from, const Measure& measure) {
+  uint32_t waiting[64];  /* halves of halves: 32 levels at most */
+  uint32_t count = 0;
+  Seen seen = {k_none, map.loop[from.loop].reach};
+  waiting[count++] = 0;
+  while (count > 0) {
+    const uint32_t b = waiting[--count];
+    const SightBox& box = map.box[b];
+    if (is_behind(box, from) || !(distance_to_box(box, from.position) < seen.way)) continue;
+    if (box.second == k_none) {
+      for (uint32_t q : map.order.span().part(box.first, box.count)) {
+        const double way = measure(q, seen.way);
+        if (way < seen.way) seen = {q, way};
+      }
+      continue;
+    }
+    const bool left_first = distance_to_box(map.box[b + 1], from.position) <=
+                            distance_to_box(map.box[box.second], from.position);
+    waiting[count++] = left_first ? box.second : b + 1;
+    waiting[count++] = left_first ? b + 1 : box.second;
+  }
+  return seen;
+}
+
+/* The way from place q to what it sees nearest, its reach where that is nothing. */
+static double nearest_way(SightMap* map, uint32_t q) {
+  if (map->nearest[q] >= 0.0) return map->nearest[q];
+  const SightPlace& from = map->place[q];
+  const Seen seen = search_sight(*map, from, [&](uint32_t r, double limit) {
+    const double way = way_between(from, map->place[r]);
+    const bool nearer = way > 0.0 && way < limit;
+    return nearer && may_see(*map, from.loop, map->place[r].loop) ? way : DBL_MAX;
+  });
+  return map->nearest[q] = seen.way;
+}
+
+Sight look(SightMap* map, uint32_t i, Span<const uint8_t> hidden) {
+  const SightPlace& from = map->place[i];
+  const Seen seen = search_sight(*map, from, [&](uint32_t q, double limit) {
+    const uint32_t loop = map->place[q].loop;
+    if (loop != from.loop && hidden[loop]) return DBL_MAX;
+    const double way = way_between(from, map->place[q]);
+    if (!(way > 0.0 && way < limit) || !may_see(*map, from.loop, loop)) return DBL_MAX;
+    return way * larger(way / nearest_way(map, q), 1.0);
+  });
+  if (seen.place == k_none) return {};
+  const SightPlace& to = map->place[seen.place];
+  return {to.loop, seen.way, dot(from.conormal, unit(to.position - from.position))};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/sight.cpp ======== */
 
 /* ======== begin src/network/kept_parts.cpp ======== */
 namespace wireskin::network {
@@ -27041,6 +29361,49 @@ Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes) {
 }  /* namespace wireskin::network */
 /* ======== end src/network/node_normals.cpp ======== */
 
+/* ======== begin src/network/outsides.cpp ======== */
+namespace wireskin::network {
+
+/* Whether every curve of the patch keeps one that is not dropped on its other side. */
+static bool bounds_others(const Network& network, Span<const uint32_t> patch_of,
+                          Span<const Status> status, uint32_t p) {
+  for (uint32_t h : network.cycle(p)) {
+    const uint32_t other = patch_of[opposite(h)];
+    if (other == k_none || other == p || !status[other].ok()) return false;
+  }
+  return true;
+}
+
+Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network* network,
+                     Array<Status>* faults, Array<uint32_t>* original) {
+  Context& context = nodes->context();
+  Array<uint32_t> patch_of(context);  /* of each half-segment */
+  Array<Status> status(context);
+  Border border(context);
+  const uint32_t patches = network->patches();
+  TRY(patch_of.assign(2 * network->segment.size(), k_none));
+  TRY(status.assign(patches, Status{}));
+  for (uint32_t p = 0; p < patches; ++p) {
+    for (uint32_t h : network->cycle(p)) patch_of[h] = p;
+  }
+  uint32_t outsides = 0;
+  for (uint32_t p = 0; p < patches; ++p) {
+    if (!network->inner[p].empty() || !network->point[p].empty()) continue;
+    if (!bounds_others(*network, patch_of.span(), status.span(), p)) continue;
+    TRY(border_of_patch(*network, vertices, p, &border));
+    if (!runs_clockwise(border)) continue;
+    status[p] = fail(Code::patch_without_plane, "outside");
+    ++outsides;
+    if (p % 1024 == 1023) TRY(context.checkpoint());
+  }
+  original->clear();
+  if (outsides == 0) return {};
+  return drop_patches(status.span(), nodes, network, original, faults);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/outsides.cpp ======== */
+
 /* ======== begin src/network/partial.cpp ======== */
 namespace wireskin::network {
 
@@ -27162,7 +29525,7 @@ static Status part_nodes(Array<Node>* nodes, Network* network) {
 }
 
 Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* network,
-                    Array<uint32_t>* original) {
+                    Array<uint32_t>* original, Array<Status>* faults) {
   Context& context = nodes->context();
   Network result(context);
   Renumbering fresh(context);
@@ -27176,8 +29539,10 @@ Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* netw
       segment.from = fresh.node[segment.from];
       segment.to = fresh.node[segment.to];
     }
+    if (faults != nullptr && !faults->empty()) (*faults)[result.segment.size()] = (*faults)[s];
     TRY(result.segment.push(segment));
   }
+  if (faults != nullptr && !faults->empty()) faults->shrink(result.segment.size());
   original->clear();
   TRY(result.patch_start.push(0));
   for (uint32_t p = 0; p < network->patches(); ++p) {
@@ -27196,6 +29561,178 @@ Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* netw
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/partial.cpp ======== */
+
+/* ======== begin src/network/size_limit.cpp ======== */
+namespace wireskin::network {
+
+static constexpr const char* k_too_many =
+    "the spacing is too small for the network: its surface would have more than 2^26 vertices";
+
+/* Vertices in a square of the size of an edge. */
+static constexpr double k_density = 0.8 * 1.1547;
+
+static double length_of_segment(const curves::Curves& curves, const Segment& segment) {
+  const curves::Curve curve = curves[segment.curve];
+  return curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
+}
+
+static double edges_of_segment(const curves::Curves& curves, const Segment& segment,
+                               double spacing) {
+  const double edges = length_of_segment(curves, segment) / spacing;
+  return edges > 1.0 ? edges : 1.0;
+}
+
+/* Vertices on curves alone. */
+static Status check_curves(const curves::Curves& curves, const Network& network, double spacing) {
+  double sum = 0.0, most = 0.0;
+  Place place;
+  for (const Segment& segment : network.segment) {
+    const double edges = edges_of_segment(curves, segment, spacing);
+    sum += edges;
+    if (!(edges > most)) continue;
+    most = edges;
+    place.curve = segment.curve;
+  }
+  if (!(sum < k_most_vertices)) return fail(Code::too_large, k_too_many, place);
+  if (most < k_most_edges_of_segment) return {};
+  return fail(Code::too_large,
+              "the spacing is too small for the network: a curve would have more than 2^20 edges "
+              "between two nodes",
+              place);
+}
+
+/* The component of each segment: segments that share a node are of one. */
+static Status find_components(const Network& network, DisjointSets* sets) {
+  Array<uint32_t> at_node(network.segment.context());
+  uint32_t nodes = 0;
+  for (const Segment& s : network.segment) {
+    if (s.from == k_none) continue;
+    nodes = nodes > s.from ? nodes : s.from + 1;
+    nodes = nodes > s.to ? nodes : s.to + 1;
+  }
+  TRY(at_node.assign(nodes, k_none));
+  TRY(sets->reset(static_cast<uint32_t>(network.segment.size())));
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    if (network.segment[s].from == k_none) continue;
+    const uint32_t ends[] = {network.segment[s].from, network.segment[s].to};
+    for (const uint32_t node : ends) {
+      if (at_node[node] == k_none) at_node[node] = s;
+      sets->unite(at_node[node], s);
+    }
+  }
+  return {};
+}
+
+/* The vertices that a cycle needs. */
+static double vertices_of_patch(const curves::Curves& curves, const Network& network,
+                                uint32_t patch, double spacing) {
+  const Segment& first = network.segment[network.cycle(patch)[0] / 2];
+  const Vec3 base = curves[first.curve].position.value[first.first_knot];
+  Vec3 area;
+  double border = 0.0, edges = 0.0;
+  for (const uint32_t h : network.cycle(patch)) {
+    const Segment& segment = network.segment[h / 2];
+    const Span<const Vec3> value = curves[segment.curve].position.value;
+    const double sign = h % 2 == 0 ? 0.5 : -0.5;
+    for (uint32_t k = segment.first_knot; k < segment.last_knot; ++k) {
+      area += sign * cross(value[k] - base, value[k + 1] - base);
+    }
+    border += length_of_segment(curves, segment);
+    edges += edges_of_segment(curves, segment, spacing);
+  }
+  const double own = border / edges;
+  return k_density * length(area) / (own * own);
+}
+
+Status check_vertex_count(const curves::Curves& curves, const Network& network, double spacing) {
+  Context& context = network.segment.context();
+  TRY(check_curves(curves, network, spacing));
+  DisjointSets sets(context);
+  Array<double> needed(context), of_component(context);
+  TRY(find_components(network, &sets));
+  TRY(needed.assign(network.patches(), 0.0));
+  TRY(of_component.assign(network.segment.size(), 0.0));
+  const auto component_of = [&](uint32_t p) { return sets.find(network.cycle(p)[0] / 2); };
+  double all = 0.0;
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    needed[p] = vertices_of_patch(curves, network, p, spacing);
+    of_component[component_of(p)] += needed[p];
+    all += needed[p];
+  }
+  uint32_t worst = k_none;
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    const double here = of_component[component_of(p)];
+    if (!(here - (all - here) >= k_most_vertices)) continue;
+    if (worst == k_none || needed[p] > needed[worst]) worst = p;
+  }
+  if (worst == k_none) return {};
+  Place place;
+  place.patch = worst;
+  place.curve = network.segment[network.cycle(worst)[0] / 2].curve;
+  return fail(Code::too_large, k_too_many, place);
+}
+
+/* Twice the vector area of one loop. */
+static Vec3 area_of_loop(const Border& border, uint32_t loop) {
+  Vec3 area;
+  const Vec3& base = border.position[border.start[loop]];
+  for (uint32_t i = border.start[loop] + 1; i + 1 < border.start[loop + 1]; ++i) {
+    area += cross(border.position[i] - base, border.position[i + 1] - base);
+  }
+  return area;
+}
+
+/* How far a loop is from the others, seen at some thousand vertices of each; what lies between */
+/* these is taken off. */
+static double clearance(const Border& border, uint32_t loop) {
+  constexpr uint32_t k_looks = 2048;
+  double least = HUGE_VAL, between = 0.0;
+  const auto stride_of = [&](uint32_t l) {
+    return 1 + (border.start[l + 1] - border.start[l]) / k_looks;
+  };
+  const auto widest = [&](uint32_t l) {
+    double most = 0.0;
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const uint32_t next = i + 1 < border.start[l + 1] ? i + 1 : border.start[l];
+      const double edge = length(border.position[next] - border.position[i]);
+      most = edge > most ? edge : most;
+    }
+    return most * stride_of(l);
+  };
+  const uint32_t step = stride_of(loop);
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    if (l == loop) continue;
+    between = widest(l) > between ? widest(l) : between;
+    for (uint32_t i = border.start[loop]; i < border.start[loop + 1]; i += step) {
+      for (uint32_t k = border.start[l]; k < border.start[l + 1]; k += stride_of(l)) {
+        const double away = length(border.position[i] - border.position[k]);
+        least = away < least ? away : least;
+      }
+    }
+  }
+  return least - 0.5 * (between + widest(loop));
+}
+
+Status check_border_size(const Border& border, double spacing) {
+  const Status too_many = fail(Code::too_large, k_too_many);
+  if (border.size() > k_longest_border_in_space) {
+    return fail(Code::too_large,
+                "the spacing is too small for the network: a patch that no plane shows would have "
+                "more than 2^16 vertices on its border");
+  }
+  const double most = k_most_vertices / k_density * spacing * spacing;  /* area */
+  if (0.5 * length(vector_area(border)) > most) return too_many;
+  for (uint32_t l = 0; l < border.loops() && border.loops() > 1; ++l) {
+    const double own = 0.5 * length(area_of_loop(border, l));
+    if (!(0.5 * own > most)) continue;
+    const double away = clearance(border, l);
+    if (away > 0.0 && away * std::sqrt(2.0 * k_pi * own) > most) return too_many;
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/size_limit.cpp ======== */
 
 /* ======== begin src/planar/polygon_mesh.cpp ======== */
 namespace wireskin::planar {
@@ -27391,11 +29928,6 @@ Status mesh_polygon(Context& context, Span<const Vec2> border, double spacing, P
 /* ======== begin src/network/snap_order.cpp ======== */
 namespace wireskin::network {
 
-bool run_along(const Vec3& a, const Vec3& b) {
-  constexpr double k_sine = 0.17;
-  return length(cross(a, b)) < k_sine;
-}
-
 /* Whether an end of a curve clearly meets the other curve. */
 static bool ends_on(const Wires& wires, Span<const uint32_t> curve, double near,
                     const Approach& approach) {
@@ -27428,7 +29960,9 @@ static bool is_beside(const Beads& beads, const Approach& approach) {
 
 Status plan_snaps(const Beads& beads, double tolerance, bool complete,
                   Span<const Approach> approaches, SnapPlan* plan) {
+  Array<Branch> branches(beads.context());
   TRY(plan->pass.resize(approaches.size()));
+  TRY(plan->beside.assign(approaches.size(), 0));
   size_t others = 0, exact = 0;
   for (size_t k = 0; k < approaches.size(); ++k) {
     const Approach& approach = approaches[k];
@@ -27436,8 +29970,13 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
     const bool beside = !touches && is_beside(beads, approach);
     const bool ends = ends_on(beads.wires, beads.curve.span(), k_crossing * tolerance, approach);
     plan->pass[k] = beside ? SnapPass::beside : ends ? SnapPass::settled : SnapPass::crosses;
+    Contact contact = touches ? Contact::meets : Contact::beside;
+    if (!touches) TRY(judge_contact(beads, approach, &branches, &contact));
+    const bool points = contact == Contact::points && approach.distance <= k_crossing * tolerance;
+    plan->beside[k] = (contact != Contact::meets || beside) && !points;
     others += !beside;
     exact += touches;
+    if (k % 1024 == 1023) TRY(beads.context().checkpoint());
   }
   plan->exact = !complete && 4 * exact >= 3 * others;
   for (size_t k = 0; k < plan->pass.size() && !plan->exact; ++k) plan->pass[k] = SnapPass::crosses;
@@ -29323,11 +31862,14 @@ static Status survey_patches(Dissector* d) {
     c.sum += g.position[v];
     ++c.vertices;
     uint32_t last = p;
+    const Vec3 here = g.position[v];
     for (uint32_t k = d->start[v]; k < d->start[v + 1]; ++k) {
       const uint32_t w = d->neighbour[k], q = g.patch[w];
       if (q == p) {
-        const Vec3 way = g.position[w] - g.position[v];
-        c.reach = {greater(c.reach.x, way.x), greater(c.reach.y, way.y), greater(c.reach.z, way.z)};
+        if (w > v) continue;  /* neighbours meet twice */
+        const Vec3 way = g.position[w] - here;
+        c.reach = {greater(c.reach.x, std::fabs(way.x)), greater(c.reach.y, std::fabs(way.y)),
+                   greater(c.reach.z, std::fabs(way.z))};
         continue;
       }
       d->mixed[v] = 1;
@@ -30542,6 +33084,11 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Span<cons
   TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
                             surface->patch.span(), on_curve, !surface->curve_edge.empty(),
                             &counts->dihedral));
+  mesh::Inverted inverted;
+  TRY(mesh::find_inverted(context, surface->position.span(), surface->triangle.span(),
+                          surface->patch.span(), &inverted));
+  counts->inverted_triangles = inverted.count;
+  if (inverted.count > 0) counts->first_inverted_patch = surface->patch[inverted.first];
   return context.progress(0.8);
 }
 
@@ -31029,27 +33576,6 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
   return {};
 }
 
-/* Far from the origin doubles are coarse, and what then fails does not look like it. */
-static Status explain_rounding(const Status& status, Span<const Vec3> positions, double spacing) {
-  constexpr double k_rounding = 1.0 / 4503599627370496.0, k_most = 1.0 / 1024.0;  /* of the spacing */
-  const bool geometric =
-      status.code == Code::zero_length_curve || status.code == Code::duplicate_samples ||
-      status.code == Code::node_mismatch || status.code == Code::tangent_normal ||
-      status.code == Code::patch_without_plane || status.code == Code::patch_folded ||
-      status.code == Code::bad_mesh || status.code == Code::not_positive_definite;
-  if (!geometric || spacing == 0.0) return status;
-  double farthest = 0.0;
-  for (const Vec3& p : positions) {
-    const double here = greatest_component(p);
-    farthest = here > farthest ? here : farthest;
-  }
-  if (!(farthest * k_rounding > k_most * spacing)) return status;
-  return fail(status.code,
-              "the network lies so far from the origin that its positions are rounded too "
-              "coarsely: move it to the origin",
-              status.place);
-}
-
 static Status build(Context& context, const wsk_curve* curves, size_t count,
                     const wsk_options& options, wsk_report* report, wsk_surface** out) {
   CurveStorage storage(context);
@@ -31067,7 +33593,8 @@ static Status build(Context& context, const wsk_curve* curves, size_t count,
                         storage.number.span(), storage.closed.span(),   storage.boundary.span(),
                         storage.soft.span(),   storage.sharp.span(),    storage.right.span()};
   const Settings settings = {static_cast<smooth::Method>(options.method), scale(options.spacing),
-                             smoothing_of(options, scale), options.partial != 0};
+                             smoothing_of(options, scale), options.partial != 0,
+                             options.find_borders != 0};
   if (settings.spacing == 0.0 && options.spacing > 0.0) {  /* zero would mean the default */
     return fail(Code::too_large, "the spacing is too small for the network");
   }
@@ -31099,10 +33626,6 @@ static Status smooth_mesh(Context& context, const wsk_mesh& mesh, const wsk_opti
   report_counts(surface.counts, Scale(exponent), report);
   TRY(status);
   return make_handle(context, surface, exponent, out);
-}
-
-static Destination<wsk_surface> to_surface(wsk_surface** surface) {
-  return {surface, "there is no place for the surface", wsk_surface_free};
 }
 
 }  /* namespace wireskin::api */
@@ -31167,6 +33690,7 @@ void wsk_report_init(wsk_report* report, size_t size) {
   defaults.curve = defaults.sample = defaults.node = WSK_NONE;
   defaults.patch = defaults.vertex = defaults.triangle = WSK_NONE;
   defaults.first_ambiguous_patch = WSK_NONE;
+  defaults.first_inverted_patch = WSK_NONE;
   wireskin::api::write_defaults(defaults, size, report);
 }
 
@@ -31398,7 +33922,8 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   TRY(context.enter(Stage::curves));
   TRY(smooth_polylines(context, polylines, flow_smoothing_of(options, scale), input.position.span(),
                        made->normal.span(), &made->noise));
-  TRY(flow::build_flow(context, polylines, inside, &made->flow));
+  const Status status = flow::build_flow(context, polylines, inside, &made->flow);
+  TRY(explain_rounding(status, made->given.span(), made->flow.step));
   TRY(list_voids(made->flow.persistence, Scale(made->exponent), &made->tables.voids));
   wsk_flow_view& view = made->view;
   view.sample_count = static_cast<uint32_t>(made->flow.samples.position.size());
@@ -31540,7 +34065,7 @@ static Status make_flow_surface(Context& context, const wsk_options& options,
       surface_from_flow(context, flow->flow, reconstruction, settings, &surface, &outcome);
   surface.counts.noise = flow->noise;
   report_counts(surface.counts, unscale, report);
-  TRY(status);
+  TRY(explain_rounding(status, flow->given.span(), settings.spacing));
   TRY(tables.voids.copy(flow->tables.voids.span()));
   for (wsk_void& v : tables.voids) v.chosen = 0;
   for (const uint32_t v : reconstruction.topology.chosen) tables.voids[v].chosen = 1;
@@ -31631,29 +34156,20 @@ wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count, const wsk
 
 wsk_status wsk_flow_surface(wsk_flow* flow, const wsk_options* options,
                             const wsk_flow_options* flow_options, wsk_surface** surface,
-                            wsk_report* out) {
+                            wsk_report* report) {
   using namespace wireskin;
-  wsk_report report;
   wsk_options checked;
   wsk_flow_options flow_checked;
-  wsk_report_init(&report, sizeof report);
-  if (out != nullptr && out->size < api::k_report_size) return WSK_ERROR_BAD_ARGUMENT;
   Status status;
   if (flow == nullptr) status = fail(Code::bad_argument, "the flow is null");
-  if (status.ok() && surface == nullptr) {
-    status = fail(Code::bad_argument, "there is no place for the surface");
-  }
   if (status.ok()) {
     status = api::read_both_options(options, flow_options, &checked, &flow_checked);
   }
-  if (!status.ok()) return api::finish(status, &report, out);
-  Context context(api::allocator_of(checked), checked.memory_cap, api::callbacks_of(checked));
-  wsk_surface* made = nullptr;
-  status = api::make_flow_surface(context, checked, flow_checked, flow, &report, &made);
-  if (!status.ok() && made != nullptr) wsk_surface_free(made);
-  api::report_costs(context, &report);
-  if (status.ok()) *surface = made;
-  return api::finish(status, &report, out);
+  return api::run_call(
+      status, status.ok() ? &checked : nullptr, api::to_surface(surface), report,
+      [&](Context& context, const wsk_options& read, wsk_report* filled, wsk_surface** made) {
+        return api::make_flow_surface(context, read, flow_checked, flow, filled, made);
+      });
 }
 
 void wsk_flow_get_view(const wsk_flow* flow, wsk_flow_view* view, size_t size) {

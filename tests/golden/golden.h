@@ -41,6 +41,7 @@ inline constexpr Golden k_golden[] = {
     {"dangling", WSK_METHOD_FAIR, 0x2b2a76585d57247eu},
     {"two_spheres", WSK_METHOD_ITERATED, 0xa628fb00f24d9aacu},
     {"partial", WSK_METHOD_STANKO, 0x54a290756ec58c10u},
+    {"untagged", WSK_METHOD_STANKO, 0x2efbdae9c52f4279u},
     {"torus", WSK_METHOD_FAIR, 0x5f5f944b7decd7c3u},
     {"fragments", WSK_METHOD_ITERATED, 0xc2f85fdfd65e7945u},
     {"segments", WSK_METHOD_FAIR, 0x2f990e49ff2ea44bu},
