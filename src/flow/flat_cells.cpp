@@ -336,11 +336,13 @@ static Status set_turns(const Complex& complex, const FlatFaces& faces, Merging*
 // Marks the edges of curves where two faces that stay make a crease, or one waits for another, and
 // the chords over them.
 static void mark_needs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const FlatFaces& faces, const Merging& merging, Span<Need> need) {
+                       const FlatFaces& faces, const Merging& merging, Span<Need> need,
+                       bool* any_settled) {
   const auto stays = [&](uint32_t f) { return merging.state[f] != FaceState::inner; };
   for (uint32_t a = 0; a < merging.arc_length.size(); ++a) {
     const CurveFault fault = fault_of(faces, merging, a, stays);
     if (fault.faces == 0 || fault.flat) continue;
+    *any_settled = *any_settled || fault.faces > 1;
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       need[curves.edge_of[i]] = fault.faces == 1 ? Need::waiting : Need::settled;
@@ -368,7 +370,7 @@ Status find_flat_cells(Context& context, const Complex& complex, const Samples& 
   TRY(merge_cells(context, faces, &merging));
   TRY(keep_dangling(faces, &merging));
   TRY(set_turns(complex, faces, &merging, &cells->turn));
-  mark_needs(complex, samples, curves, faces, merging, cells->need.span());
+  mark_needs(complex, samples, curves, faces, merging, cells->need.span(), &cells->any_settled);
   return {};
 }
 

@@ -23,6 +23,7 @@ enum class Need : uint8_t { open, settled, waiting };
 struct FlatCells {
   Array<Pass> turn;  // of each triangle; empty where there are no faces
   Array<Need> need;  // of each edge of the curves, and of each chord
+  bool any_settled = false;
 
   explicit FlatCells(Context& context) : turn(context), need(context) {}
 };

@@ -167,7 +167,8 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves, con
          k_none,
          topology.walls.in[t] != 0,
          topology.closed.in[t] == 0 &&
-             !measure_border(complex, curves, flat, cells->sheet, part).is_idle()}));
+             !(flat.any_settled &&
+               measure_border(complex, curves, flat, cells->sheet, part).is_idle())}));
   }
   return {};
 }

@@ -44,7 +44,8 @@ struct WallBorder {
   double settled = 0.0;  // on curves that have no use for the wall
   double waiting = 0.0;  // on curves that have a flat face on their other side
 
-  // No curve is there for the sake of the wall, or few.
+  // No curve is there for the sake of the wall, or few. Where no flat face settles any curve this
+  // tells nothing: sketches are full of walls that end at others.
   bool is_idle() const { return loose + settled > 0.6 * whole; }
   // Curves are there that lack only this wall; it may reach the flat faces at them a little early.
   bool is_wanted() const {
