@@ -3343,6 +3343,7 @@ enum class Need : uint8_t { open, settled, waiting };
 struct FlatCells {
   Array<Pass> turn;  /* of each triangle; empty where there are no faces */
   Array<Need> need;  /* of each edge of the curves, and of each chord */
+  bool any_settled = false;
 
   explicit FlatCells(Context& context) : turn(context), need(context) {}
 };
@@ -3447,7 +3448,8 @@ struct WallBorder {
   double settled = 0.0;  /* on curves that have no use for the wall */
   double waiting = 0.0;  /* on curves that have a flat face on their other side */
 
-  /* No curve is there for the sake of the wall, or few. */
+  /* No curve is there for the sake of the wall, or few. Where no flat face settles any curve this */
+  /* tells nothing: sketches are full of walls that end at others. */
   bool is_idle() const { return loose + settled > 0.6 * whole; }
   /* Curves are there that lack only this wall; it may reach the flat faces at them a little early. */
   bool is_wanted() const {
@@ -14789,11 +14791,13 @@ static Status set_turns(const Complex& complex, const FlatFaces& faces, Merging*
 /* Marks the edges of curves where two faces that stay make a crease, or one waits for another, and */
 /* the chords over them. */
 static void mark_needs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const FlatFaces& faces, const Merging& merging, Span<Need> need) {
+                       const FlatFaces& faces, const Merging& merging, Span<Need> need,
+                       bool* any_settled) {
   const auto stays = [&](uint32_t f) { return merging.state[f] != FaceState::inner; };
   for (uint32_t a = 0; a < merging.arc_length.size(); ++a) {
     const CurveFault fault = fault_of(faces, merging, a, stays);
     if (fault.faces == 0 || fault.flat) continue;
+    *any_settled = *any_settled || fault.faces > 1;
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       need[curves.edge_of[i]] = fault.faces == 1 ? Need::waiting : Need::settled;
@@ -14821,7 +14825,7 @@ Status find_flat_cells(Context& context, const Complex& complex, const Samples& 
   TRY(merge_cells(context, faces, &merging));
   TRY(keep_dangling(faces, &merging));
   TRY(set_turns(complex, faces, &merging, &cells->turn));
-  mark_needs(complex, samples, curves, faces, merging, cells->need.span());
+  mark_needs(complex, samples, curves, faces, merging, cells->need.span(), &cells->any_settled);
   return {};
 }
 
@@ -15764,7 +15768,8 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves, con
          k_none,
          topology.walls.in[t] != 0,
          topology.closed.in[t] == 0 &&
-             !measure_border(complex, curves, flat, cells->sheet, part).is_idle()}));
+             !(flat.any_settled &&
+               measure_border(complex, curves, flat, cells->sheet, part).is_idle())}));
   }
   return {};
 }
