@@ -128,6 +128,17 @@ static Status renumber_guarded(Span<const uint32_t> original, uint32_t patches,
   return guarded->copy(all.span());
 }
 
+// An outside that might have been joined otherwise is no patch any more, so no question either.
+static void renumber_ambiguous(Span<const uint32_t> original, Counts* counts) {
+  const uint32_t before = counts->first_ambiguous_patch;
+  if (before == k_none) return;
+  counts->first_ambiguous_patch = k_none;
+  for (uint32_t p = 0; p < original.size(); ++p) {
+    if (original[p] == before) counts->first_ambiguous_patch = p;
+  }
+  if (counts->first_ambiguous_patch == k_none) --counts->ambiguous_patches;
+}
+
 // Leaves the outside of an open surface open, whose curves no one tagged.
 static Status find_borders(const curves::Curves& fitted, Array<network::Node>* nodes,
                            network::Network* network, network::CurveVertices* vertices,
@@ -139,10 +150,7 @@ static Status find_borders(const curves::Curves& fitted, Array<network::Node>* n
   counts->found_borders = counts->patches - network->patches();
   counts->patches = network->patches();
   counts->segments = static_cast<uint32_t>(network->segment.size());
-  const uint32_t ambiguous = counts->first_ambiguous_patch;
-  for (uint32_t p = 0; p < original.size() && ambiguous != k_none; ++p) {
-    if (original[p] <= ambiguous) counts->first_ambiguous_patch = p;
-  }
+  renumber_ambiguous(original.span(), counts);
   network::CurveVertices fresh(context);
   TRY(network::resample(fitted, nodes->span(), *network, counts->spacing, &fresh));
   *vertices = static_cast<network::CurveVertices&&>(fresh);

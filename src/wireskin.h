@@ -47,8 +47,8 @@
  *   lengths by exactly that.
  * - Sizes: indices have 32 bits, so the matrix factors have fewer than 2^32 - 1 entries, and a mesh
  *   of the library's fewer than 2^26 vertices, 2^20 edges between two nodes, and 2^16 on the border
- *   of a patch that no plane shows; beyond that the status is WSK_ERROR_TOO_LARGE, and where the
- *   spacing asks for more, that is known before anything is meshed.
+ *   of a patch that no plane shows; beyond that the status is WSK_ERROR_TOO_LARGE, known before
+ *   anything is meshed where the curves alone show it.
  *
  * ABI: structs that may grow begin with their size, which the _init function writes; a library
  * newer than the caller never touches bytes beyond it. Numbers of constants never change.
@@ -362,7 +362,8 @@ typedef struct wsk_report {
   wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
   uint32_t failed_patches; /* left out because of wsk_options.partial */
   /* Patches of several loops that might as well have been joined otherwise, or closed each alone:
-     the other choice had less than a tenth more area. WSK_NONE where there is no first one. */
+     the other choice had less than a tenth more area, or the evidence of their normals for this one
+     was next to none. WSK_NONE where there is no first one. */
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
   uint32_t found_borders; /* outsides that were left open because of wsk_options.find_borders */
@@ -419,9 +420,9 @@ typedef struct wsk_curve {
      not known; the surface then leaves the curve on that side as it likes, and a patch none of
      whose normals are known spans its border with little area. Both may be equal: then the surface
      is smooth across the curve too, but its curvature may jump there (a hemisphere on a cylinder).
-     A boundary curve may be sharp to have no normals; a point has no sides and is never sharp. Zero,
-     as memset leaves it: the curve is smooth, `normals` hold on both sides and `normals_right` is
-     not read. */
+     A boundary curve may be sharp to have no normals; a point has no sides and is never sharp.
+     Zero, as memset leaves it: the curve is smooth, `normals` hold on both sides and
+     `normals_right` is not read. */
   int32_t sharp;
   const double* normals_right;
   size_t normal_right_stride;
@@ -737,8 +738,9 @@ typedef struct wsk_flow_options {
 
   /* For wsk_flow_surface. */
 
-  /* How many voids the surface shall enclose; WSK_VOIDS_AUTO (the default): those whose ratio
-     stands out. Fewer are made if the curves cage fewer. */
+  /* How many voids the surface shall enclose, in the order of wsk_flow_view.voids; WSK_VOIDS_AUTO
+     (the default): those whose ratio stands out, and those that flat faces close or wait for. Fewer
+     are made if the curves cage fewer. */
   int32_t voids;
   /* Rooms along the walls up to this multiple of the radius of the first void's last wall are
      filled and emptied again, so that walls move into the corners that they cut. Default 1.2, 0:
@@ -816,7 +818,8 @@ typedef struct wsk_flow_view {
   uint32_t crowded_count; /* segments that should have been, but were too short already */
   uint32_t missing_count; /* segments without an edge in the complex: none in sound input */
   uint32_t void_count;
-  const wsk_void* voids; /* by falling ratio */
+  /* Those that only flat faces close first, whatever their ratio; the others by falling ratio. */
+  const wsk_void* voids;
 
   /* Of the last surface; zero before the first. */
   uint32_t betti[3]; /* components, handles and loops, voids: of surface and curves together */

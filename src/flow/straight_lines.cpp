@@ -68,8 +68,15 @@ static Status join_lines(const Complex& complex, const Samples& samples, Span<ui
     for (uint32_t end = 0; end < 2 && parent[a] != k_none; ++end) arc[start[end_of(a, end)]++] = a;
   }
   // The starts have moved on to the ends.
+  constexpr size_t k_pairs_per_checkpoint = 1u << 16;
+  size_t pairs = 0;
   for (uint32_t v = 0; v < complex.point.size(); ++v) {
     for (uint32_t i = v == 0 ? 0 : start[v - 1]; i < start[v]; ++i) {
+      pairs += start[v] - i;
+      if (pairs > k_pairs_per_checkpoint) {
+        pairs = 0;
+        TRY(start.context().checkpoint());
+      }
       for (uint32_t k = i + 1; k < start[v]; ++k) {
         const uint32_t u = end_of(arc[i], 0) == v ? end_of(arc[i], 1) : end_of(arc[i], 0);
         const uint32_t w = end_of(arc[k], 0) == v ? end_of(arc[k], 1) : end_of(arc[k], 0);

@@ -51,6 +51,7 @@ static bool is_inverted(const FacedMesh& mesh, Span<const uint32_t> start,
 
 Status find_inverted(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                      Span<const uint32_t> patch, Inverted* inverted) {
+  constexpr size_t k_work_per_checkpoint = 1u << 16;
   const FacedMesh mesh = {position, triangle, patch};
   const uint32_t vertices = static_cast<uint32_t>(position.size());
   Array<uint32_t> twins(context), start(context), corner(context), candidate(context);
@@ -61,7 +62,15 @@ Status find_inverted(Context& context, Span<const Vec3> position, Span<const uin
   }
   if (candidate.empty()) return {};
   TRY(find_corners(vertices, triangle, &start, &corner));
+  size_t work = 0;
   for (const uint32_t t : candidate) {
+    for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      work += start[triangle[h] + 1] - start[triangle[h]];
+    }
+    if (work > k_work_per_checkpoint) {
+      work = 0;
+      TRY(context.checkpoint());
+    }
     if (!is_inverted(mesh, start.span(), corner.span(), t)) continue;
     if (inverted->count++ == 0) inverted->first = t;
   }

@@ -4,7 +4,7 @@
 // one of its neighbours in the patch and, at each of its corners that has other triangles of the
 // patch, against their sum (by area). So in a plane inverted is what runs clockwise among others
 // that do not; a crease between patches, a cusp or a sharp bend of several triangles has none. Out:
-// how many there are, and the first. O(triangles).
+// how many there are, and the first. O(triangles), and those round each that faces a neighbour.
 #pragma once
 
 #include "mesh/mesh.h"

@@ -102,7 +102,7 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   ColumnUnderWay column(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(column.met.assign(vertices, k_none));
-  TRY(column.sum.resize(vertices));
+  TRY(column.sum.assign(vertices, 0.0));
   TRY(column.row.resize(size_t{vertices} + 1));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));

@@ -423,8 +423,8 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
   if (!may_be_meshed_otherwise(status)) return status;
-  TRY(check_border_size(border, spacing));
   TRY(check_border(border));
+  TRY(check_border_size(border, spacing));
   TRY(mesh_in_space(vertices, spacing, scratch));
   TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
@@ -551,6 +551,11 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+  if (mesh->vertices >= k_most_vertices) {
+    return fail(
+        Code::too_large,
+        "the spacing is too small for the network: its surface has more than 2^26 vertices");
+  }
   if (mesh->patch.empty() && !mesh->status.empty()) return mesh->status[0];
   return split_shared_chords(network, vertices, &builder);
 }

@@ -155,7 +155,7 @@ static double clearance(const Border& border, uint32_t loop) {
 
 Status check_border_size(const Border& border, double spacing) {
   const Status too_many = fail(Code::too_large, k_too_many);
-  if (border.size() > k_longest_border_in_space) {
+  if (border.size() >= k_longest_border_in_space) {
     return fail(Code::too_large,
                 "the spacing is too small for the network: a patch that no plane shows would have "
                 "more than 2^16 vertices on its border");

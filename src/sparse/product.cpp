@@ -111,7 +111,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   Accumulator gathered(context);
   size_t work = 0, room = 0;
   TRY(gathered.mark.assign(unknowns, k_none));
-  TRY(gathered.sum.resize(unknowns));
+  TRY(gathered.sum.assign(unknowns, 0.0));
   TRY(gathered.rows.resize(size_t{unknowns} + 1));
   TRY(product->start.resize(size_t{unknowns} + 1));
   product->rows = product->cols = unknowns;

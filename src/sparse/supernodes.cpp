@@ -70,6 +70,11 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
     result->panel[s] = static_cast<uint32_t>(values);
     const uint32_t height = block.width + block.tail;
     rows += height;
+    // With indices of 32 bits the size of the trapezoid itself might wrap.
+    const uint64_t whole = uint64_t{round_up_rows(height)} * block.width;
+    if (whole >= 2 * uint64_t{k_none}) {
+      return fail(Code::too_large, "the factor is too large for 32-bit indices");
+    }
     values += trapezoid_size(round_up_rows(height), block.width) + k_panel_margin;
     if (rows >= k_none || values >= k_none) {
       return fail(Code::too_large, "the factor is too large for 32-bit indices");

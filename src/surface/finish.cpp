@@ -20,6 +20,16 @@ Status count_topology(uint32_t vertices, Span<const uint32_t> triangles, mesh::T
   return {};
 }
 
+Status count_inverted(Context& context, Surface* surface) {
+  mesh::Inverted inverted;
+  TRY(mesh::find_inverted(context, surface->position.span(), surface->triangle.span(),
+                          surface->patch.span(), &inverted));
+  Counts* counts = &surface->counts;
+  counts->inverted_triangles = inverted.count;
+  counts->first_inverted_patch = inverted.count > 0 ? surface->patch[inverted.first] : k_none;
+  return {};
+}
+
 // Normals, curvatures and the figures of the report, of the finished mesh.
 static Status measure(Context& context, Span<const uint8_t> on_border, Span<const uint8_t> on_curve,
                       Surface* surface) {
@@ -43,11 +53,7 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Span<cons
   TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
                             surface->patch.span(), on_curve, !surface->curve_edge.empty(),
                             &counts->dihedral));
-  mesh::Inverted inverted;
-  TRY(mesh::find_inverted(context, surface->position.span(), surface->triangle.span(),
-                          surface->patch.span(), &inverted));
-  counts->inverted_triangles = inverted.count;
-  if (inverted.count > 0) counts->first_inverted_patch = surface->patch[inverted.first];
+  TRY(count_inverted(context, surface));
   return context.progress(0.8);
 }
 

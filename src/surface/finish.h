@@ -29,6 +29,9 @@ struct Start {
 Status count_topology(uint32_t vertices, Span<const uint32_t> triangles, mesh::Topology* topology,
                       Counts* counts);
 
+// Counts the triangles that lie upside down (mesh/inverted.h).
+Status count_inverted(Context& context, Surface* surface);
+
 Status smooth_surface(Context& context, const Start& start, const Constraints& constraints,
                       smooth::Method method, Surface* surface);
 

@@ -169,6 +169,7 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   surface->counts.least_angle =
       mesh::least_angle(surface->position.span(), surface->triangle.span());
   if (!measurable) return {};
+  TRY(count_inverted(context, surface));
   Array<uint8_t> on_curve(context);
   TRY(on_curve.resize(n));
   for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
@@ -258,7 +259,9 @@ static Status smooth_or_restore(Context& context, const mesh::Topology& topology
   surface->position = static_cast<Array<Vec3>&&>(position);
   surface->triangle = static_cast<Array<uint32_t>&&>(triangle);
   surface->patch_guarded.clear();
-  surface->counts.guarded_patches = 0;
+  surface->counts.guarded_patches = surface->counts.iterations = 0;
+  surface->counts.inverted_triangles = 0;
+  surface->counts.first_inverted_patch = k_none;
   surface->counts.residual = 0.0;
   surface->counts.normal_deviation = {};
   return {};
