@@ -76,6 +76,24 @@ static std::string spacing_line(const wsk_surface_view& surface, const wsk_repor
          " between nodes; --spacing LENGTH makes it finer\n";
 }
 
+// What tells that patches may not be those that the curves were drawn for.
+static std::string doubts(const wsk_report& report) {
+  constexpr double k_much = 50.0;  // degrees; bends between curves far apart reach 40
+  std::string text;
+  if (report.ambiguous_patches > 0) {
+    text += counted(report.ambiguous_patches, "patch", "patches") +
+            " of several loops might as well be joined otherwise, the first is " +
+            std::to_string(report.first_ambiguous_patch) + "\n";
+  }
+  if (report.normal_deviation_max_deg > k_much) {
+    char degrees[32];
+    std::snprintf(degrees, sizeof degrees, "%.0f", report.normal_deviation_max_deg);
+    text += "the surface leaves the normals by up to " + std::string(degrees) +
+            " degrees: where it does, curves are too few or bound another patch than found\n";
+  }
+  return text;
+}
+
 std::string ignored_columns(const Network& network) {
   std::string list;
   for (const std::string& name : network.ignored_columns) {
@@ -106,6 +124,12 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
             std::to_string(result.report.first_inverted_patch) + "\n";
   }
   if (result.flow != nullptr) text += flow_lines(result.flow->view, arguments.voids);
+  const uint32_t loose = result.flow != nullptr ? result.prepared_view().after.dangling_ends : 0;
+  if (loose > 0) {
+    text += counted(loose, "end of a curve meets", "ends of curves meet") +
+            " no other: --snap LENGTH joins what misses by less\n";
+  }
+  text += doubts(result.report);
   text += spacing_line(surface, result.report);
   if (!network.ignored_columns.empty()) {
     text +=

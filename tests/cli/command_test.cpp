@@ -570,3 +570,55 @@ TEST_CASE("the example in C writes the sphere") {
   CHECK(triangles == 2 * vertices - 4);
   CHECK(farthest < 0.05);
 }
+
+TEST_CASE("surfaces in doubt: loops that might be joined otherwise, normals that are left far") {
+  const ScratchFolder folder("command");
+  std::string vertices, normals, lines;
+  int count = 0;
+  const auto ring = [&](const char* group, double radius, double z, int side) {
+    lines += "g " + std::string(group) + "\nl";
+    for (int k = 0; k < 48; ++k) {
+      const double c = std::cos(2 * k_pi * k / 48), s = std::sin(2 * k_pi * k / 48);
+      vertices += "v " + std::to_string(radius * c) + " " + std::to_string(radius * s) + " " +
+                  std::to_string(z) + "\n";
+      normals += "vn " + std::to_string(side * c) + " " + std::to_string(side * s) + " 0\n";
+      lines += " " + std::to_string(++count);
+    }
+    lines += " " + std::to_string(count - 47) + "\n";
+  };
+  // Two tubes, one in the other.
+  ring("boundary_a", 1.0, 0.0, 1);
+  ring("middle", 1.0, 1.0, 1);
+  ring("boundary_b", 1.0, 2.0, 1);
+  ring("boundary_c", 0.6, 0.5, -1);
+  ring("boundary_d", 0.6, 1.5, -1);
+  write_file(folder / "tubes.obj", vertices + normals + lines);
+  const Run r = run(folder, "tubes.obj -o s.obj --report s.json --spacing 0.2");
+  REQUIRE(r.status == 0);
+  auto report = JsonReader(read_file(folder / "s.json")).values;
+  CHECK((report["ambiguous_patches"] == "0") ==
+        (r.out.find("might as well be joined otherwise") == std::string::npos));
+  CHECK((std::stod(report["normal_deviation_max_deg"]) <= 50.0) ==
+        (r.out.find("leaves the normals by up to") == std::string::npos));
+  const bool right = report["patches"] == "3" && report["euler_characteristic"] == "0";
+  const bool told = r.out.find("otherwise") != std::string::npos ||
+                    r.out.find("leaves the normals") != std::string::npos;
+  CHECK((right || told));
+}
+
+TEST_CASE("from curves alone: ends that meet nothing are told, with what may join them") {
+  const ScratchFolder folder("command");
+  const std::string short_edge = "v 0.05 0 0\nl 9 2\n";  // instead of the one from 1 to 2
+  std::string edges = cube_edges();
+  const std::string whole = "l 1 2\n";
+  const size_t at = edges.find(whole);
+  REQUIRE(at != std::string::npos);
+  edges.erase(at, whole.size());
+  write_file(folder / "cube.obj", cube_corners() + edges + short_edge);
+  Run r = run(folder, "cube.obj -o s.obj --spacing 0.25");
+  REQUIRE(r.status == 0);
+  CHECK(r.out.find("1 end of a curve meets no other: --snap LENGTH") != std::string::npos);
+  r = run(folder, "cube.obj -o s.obj --spacing 0.25 --snap 0.06");
+  REQUIRE(r.status == 0);
+  CHECK(r.out.find("--snap LENGTH") == std::string::npos);
+}
