@@ -53,8 +53,8 @@
  *   lengths by exactly that.
  * - Sizes: indices have 32 bits, so the matrix factors have fewer than 2^32 - 1 entries, and a mesh
  *   of the library's fewer than 2^26 vertices, 2^20 edges between two nodes, and 2^16 on the border
- *   of a patch that no plane shows; beyond that the status is WSK_ERROR_TOO_LARGE, and where the
- *   spacing asks for more, that is known before anything is meshed.
+ *   of a patch that no plane shows; beyond that the status is WSK_ERROR_TOO_LARGE, known before
+ *   anything is meshed where the curves alone show it.
  *
  * ABI: structs that may grow begin with their size, which the _init function writes; a library
  * newer than the caller never touches bytes beyond it. Numbers of constants never change.
@@ -368,7 +368,8 @@ typedef struct wsk_report {
   wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
   uint32_t failed_patches; /* left out because of wsk_options.partial */
   /* Patches of several loops that might as well have been joined otherwise, or closed each alone:
-     the other choice had less than a tenth more area. WSK_NONE where there is no first one. */
+     the other choice had less than a tenth more area, or the evidence of their normals for this one
+     was next to none. WSK_NONE where there is no first one. */
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
   uint32_t found_borders; /* outsides that were left open because of wsk_options.find_borders */
@@ -425,9 +426,9 @@ typedef struct wsk_curve {
      not known; the surface then leaves the curve on that side as it likes, and a patch none of
      whose normals are known spans its border with little area. Both may be equal: then the surface
      is smooth across the curve too, but its curvature may jump there (a hemisphere on a cylinder).
-     A boundary curve may be sharp to have no normals; a point has no sides and is never sharp. Zero,
-     as memset leaves it: the curve is smooth, `normals` hold on both sides and `normals_right` is
-     not read. */
+     A boundary curve may be sharp to have no normals; a point has no sides and is never sharp.
+     Zero, as memset leaves it: the curve is smooth, `normals` hold on both sides and
+     `normals_right` is not read. */
   int32_t sharp;
   const double* normals_right;
   size_t normal_right_stride;
@@ -743,8 +744,9 @@ typedef struct wsk_flow_options {
 
   /* For wsk_flow_surface. */
 
-  /* How many voids the surface shall enclose; WSK_VOIDS_AUTO (the default): those whose ratio
-     stands out. Fewer are made if the curves cage fewer. */
+  /* How many voids the surface shall enclose, in the order of wsk_flow_view.voids; WSK_VOIDS_AUTO
+     (the default): those whose ratio stands out, and those that flat faces close or wait for. Fewer
+     are made if the curves cage fewer. */
   int32_t voids;
   /* Rooms along the walls up to this multiple of the radius of the first void's last wall are
      filled and emptied again, so that walls move into the corners that they cut. Default 1.2, 0:
@@ -822,7 +824,8 @@ typedef struct wsk_flow_view {
   uint32_t crowded_count; /* segments that should have been, but were too short already */
   uint32_t missing_count; /* segments without an edge in the complex: none in sound input */
   uint32_t void_count;
-  const wsk_void* voids; /* by falling ratio */
+  /* Those that only flat faces close first, whatever their ratio; the others by falling ratio. */
+  const wsk_void* voids;
 
   /* Of the last surface; zero before the first. */
   uint32_t betti[3]; /* components, handles and loops, voids: of surface and curves together */
@@ -5540,7 +5543,7 @@ Status check(Context& context, const Expectations& mesh);
 /* one of its neighbours in the patch and, at each of its corners that has other triangles of the */
 /* patch, against their sum (by area). So in a plane inverted is what runs clockwise among others */
 /* that do not; a crease between patches, a cusp or a sharp bend of several triangles has none. Out: */
-/* how many there are, and the first. O(triangles). */
+/* how many there are, and the first. O(triangles), and those round each that faces a neighbour. */
 
 namespace wireskin::mesh {
 
@@ -7570,6 +7573,9 @@ struct Start {
 Status count_topology(uint32_t vertices, Span<const uint32_t> triangles, mesh::Topology* topology,
                       Counts* counts);
 
+/* Counts the triangles that lie upside down (mesh/inverted.h). */
+Status count_inverted(Context& context, Surface* surface);
+
 Status smooth_surface(Context& context, const Start& start, const Constraints& constraints,
                       smooth::Method method, Surface* surface);
 
@@ -9014,7 +9020,7 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   ColumnUnderWay column(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(column.met.assign(vertices, k_none));
-  TRY(column.sum.resize(vertices));
+  TRY(column.sum.assign(vertices, 0.0));
   TRY(column.row.resize(size_t{vertices} + 1));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
@@ -10322,6 +10328,11 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
     result->panel[s] = static_cast<uint32_t>(values);
     const uint32_t height = block.width + block.tail;
     rows += height;
+    /* With indices of 32 bits the size of the trapezoid itself might wrap. */
+    const uint64_t whole = uint64_t{round_up_rows(height)} * block.width;
+    if (whole >= 2 * uint64_t{k_none}) {
+      return fail(Code::too_large, "the factor is too large for 32-bit indices");
+    }
     values += trapezoid_size(round_up_rows(height), block.width) + k_panel_margin;
     if (rows >= k_none || values >= k_none) {
       return fail(Code::too_large, "the factor is too large for 32-bit indices");
@@ -12022,6 +12033,17 @@ static Status renumber_guarded(Span<const uint32_t> original, uint32_t patches,
   return guarded->copy(all.span());
 }
 
+/* An outside that might have been joined otherwise is no patch any more, so no question either. */
+static void renumber_ambiguous(Span<const uint32_t> original, Counts* counts) {
+  const uint32_t before = counts->first_ambiguous_patch;
+  if (before == k_none) return;
+  counts->first_ambiguous_patch = k_none;
+  for (uint32_t p = 0; p < original.size(); ++p) {
+    if (original[p] == before) counts->first_ambiguous_patch = p;
+  }
+  if (counts->first_ambiguous_patch == k_none) --counts->ambiguous_patches;
+}
+
 /* Leaves the outside of an open surface open, whose curves no one tagged. */
 static Status find_borders(const curves::Curves& fitted, Array<network::Node>* nodes,
                            network::Network* network, network::CurveVertices* vertices,
@@ -12033,10 +12055,7 @@ static Status find_borders(const curves::Curves& fitted, Array<network::Node>* n
   counts->found_borders = counts->patches - network->patches();
   counts->patches = network->patches();
   counts->segments = static_cast<uint32_t>(network->segment.size());
-  const uint32_t ambiguous = counts->first_ambiguous_patch;
-  for (uint32_t p = 0; p < original.size() && ambiguous != k_none; ++p) {
-    if (original[p] <= ambiguous) counts->first_ambiguous_patch = p;
-  }
+  renumber_ambiguous(original.span(), counts);
   network::CurveVertices fresh(context);
   TRY(network::resample(fitted, nodes->span(), *network, counts->spacing, &fresh));
   *vertices = static_cast<network::CurveVertices&&>(fresh);
@@ -13712,8 +13731,15 @@ static Status join_lines(const Complex& complex, const Samples& samples, Span<ui
     for (uint32_t end = 0; end < 2 && parent[a] != k_none; ++end) arc[start[end_of(a, end)]++] = a;
   }
   /* The starts have moved on to the ends. */
+  constexpr size_t k_pairs_per_checkpoint = 1u << 16;
+  size_t pairs = 0;
   for (uint32_t v = 0; v < complex.point.size(); ++v) {
     for (uint32_t i = v == 0 ? 0 : start[v - 1]; i < start[v]; ++i) {
+      pairs += start[v] - i;
+      if (pairs > k_pairs_per_checkpoint) {
+        pairs = 0;
+        TRY(start.context().checkpoint());
+      }
       for (uint32_t k = i + 1; k < start[v]; ++k) {
         const uint32_t u = end_of(arc[i], 0) == v ? end_of(arc[i], 1) : end_of(arc[i], 0);
         const uint32_t w = end_of(arc[k], 0) == v ? end_of(arc[k], 1) : end_of(arc[k], 0);
@@ -16679,6 +16705,7 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   surface->counts.least_angle =
       mesh::least_angle(surface->position.span(), surface->triangle.span());
   if (!measurable) return {};
+  TRY(count_inverted(context, surface));
   Array<uint8_t> on_curve(context);
   TRY(on_curve.resize(n));
   for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
@@ -16768,7 +16795,9 @@ static Status smooth_or_restore(Context& context, const mesh::Topology& topology
   surface->position = static_cast<Array<Vec3>&&>(position);
   surface->triangle = static_cast<Array<uint32_t>&&>(triangle);
   surface->patch_guarded.clear();
-  surface->counts.guarded_patches = 0;
+  surface->counts.guarded_patches = surface->counts.iterations = 0;
+  surface->counts.inverted_triangles = 0;
+  surface->counts.first_inverted_patch = k_none;
   surface->counts.residual = 0.0;
   surface->counts.normal_deviation = {};
   return {};
@@ -23527,6 +23556,7 @@ static bool is_inverted(const FacedMesh& mesh, Span<const uint32_t> start,
 
 Status find_inverted(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                      Span<const uint32_t> patch, Inverted* inverted) {
+  constexpr size_t k_work_per_checkpoint = 1u << 16;
   const FacedMesh mesh = {position, triangle, patch};
   const uint32_t vertices = static_cast<uint32_t>(position.size());
   Array<uint32_t> twins(context), start(context), corner(context), candidate(context);
@@ -23537,7 +23567,15 @@ Status find_inverted(Context& context, Span<const Vec3> position, Span<const uin
   }
   if (candidate.empty()) return {};
   TRY(find_corners(vertices, triangle, &start, &corner));
+  size_t work = 0;
   for (const uint32_t t : candidate) {
+    for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      work += start[triangle[h] + 1] - start[triangle[h]];
+    }
+    if (work > k_work_per_checkpoint) {
+      work = 0;
+      TRY(context.checkpoint());
+    }
     if (!is_inverted(mesh, start.span(), corner.span(), t)) continue;
     if (inverted->count++ == 0) inverted->first = t;
   }
@@ -23844,7 +23882,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   Accumulator gathered(context);
   size_t work = 0, room = 0;
   TRY(gathered.mark.assign(unknowns, k_none));
-  TRY(gathered.sum.resize(unknowns));
+  TRY(gathered.sum.assign(unknowns, 0.0));
   TRY(gathered.rows.resize(size_t{unknowns} + 1));
   TRY(product->start.resize(size_t{unknowns} + 1));
   product->rows = product->cols = unknowns;
@@ -26541,8 +26579,8 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
     return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
   }
   if (!may_be_meshed_otherwise(status)) return status;
-  TRY(check_border_size(border, spacing));
   TRY(check_border(border));
+  TRY(check_border_size(border, spacing));
   TRY(mesh_in_space(vertices, spacing, scratch));
   TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
@@ -26669,6 +26707,11 @@ Status mesh_patches(const Network& network, const CurveVertices& vertices, doubl
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
   TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+  if (mesh->vertices >= k_most_vertices) {
+    return fail(
+        Code::too_large,
+        "the spacing is too small for the network: its surface has more than 2^26 vertices");
+  }
   if (mesh->patch.empty() && !mesh->status.empty()) return mesh->status[0];
   return split_shared_chords(network, vertices, &builder);
 }
@@ -29720,7 +29763,7 @@ static double clearance(const Border& border, uint32_t loop) {
 
 Status check_border_size(const Border& border, double spacing) {
   const Status too_many = fail(Code::too_large, k_too_many);
-  if (border.size() > k_longest_border_in_space) {
+  if (border.size() >= k_longest_border_in_space) {
     return fail(Code::too_large,
                 "the spacing is too small for the network: a patch that no plane shows would have "
                 "more than 2^16 vertices on its border");
@@ -33066,6 +33109,16 @@ Status count_topology(uint32_t vertices, Span<const uint32_t> triangles, mesh::T
   return {};
 }
 
+Status count_inverted(Context& context, Surface* surface) {
+  mesh::Inverted inverted;
+  TRY(mesh::find_inverted(context, surface->position.span(), surface->triangle.span(),
+                          surface->patch.span(), &inverted));
+  Counts* counts = &surface->counts;
+  counts->inverted_triangles = inverted.count;
+  counts->first_inverted_patch = inverted.count > 0 ? surface->patch[inverted.first] : k_none;
+  return {};
+}
+
 /* Normals, curvatures and the figures of the report, of the finished mesh. */
 static Status measure(Context& context, Span<const uint8_t> on_border, Span<const uint8_t> on_curve,
                       Surface* surface) {
@@ -33089,11 +33142,7 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Span<cons
   TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
                             surface->patch.span(), on_curve, !surface->curve_edge.empty(),
                             &counts->dihedral));
-  mesh::Inverted inverted;
-  TRY(mesh::find_inverted(context, surface->position.span(), surface->triangle.span(),
-                          surface->patch.span(), &inverted));
-  counts->inverted_triangles = inverted.count;
-  if (inverted.count > 0) counts->first_inverted_patch = surface->patch[inverted.first];
+  TRY(count_inverted(context, surface));
   return context.progress(0.8);
 }
 
