@@ -16355,7 +16355,8 @@ static Status reach_curves(const Flow& flow, const Reconstruction& r, const Shar
   for (uint32_t i = 0; !ears.inner.empty() && i < part.size(); ++i) {
     const uint32_t begin = static_cast<uint32_t>(local->triangle.size() / 3);
     uint32_t corner[3];
-    for (uint32_t k = 0; k < 3; ++k) corner[k] = local->triangle[3 * size_t{i} + k];
+    const size_t half_edge = 3 * size_t{i};
+    for (uint32_t k = 0; k < 3; ++k) corner[k] = local->triangle[half_edge + k];
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t opposite = turned_corner(r, part[i], (k + 2) % 3);
       const uint32_t e = flow.complex.triangle_edge[3 * size_t{part[i]} + opposite];
