@@ -54,7 +54,13 @@ std::vector<std::string_view> cells_of(const LineScanner& scanner, char separato
     cells.push_back(trimmed(rest.substr(0, end)));
     if (end != std::string_view::npos) rest.remove_prefix(end + 1);
   }
-  // A separator at the end of the row ends its last cell.
+  return cells;
+}
+
+// Those that tell how many columns the table has: a separator at the end of a row ends its last
+// cell.
+std::vector<std::string_view> counted_cells(const LineScanner& scanner, char separator) {
+  std::vector<std::string_view> cells = cells_of(scanner, separator);
   if (cells.size() > 1 && cells.back().empty()) cells.pop_back();
   return cells;
 }
@@ -121,8 +127,9 @@ void take_header(const LineScanner& scanner, const std::vector<std::string_view>
   if (some && !(layout.has(k_nx) && layout.has(k_ny) && layout.has(k_nz))) {
     scanner.fail("the header names some of nx, ny and nz, but not all");
   }
-  for (const size_t place : {layout.place[k_x], layout.place[k_y], layout.place[k_z]}) {
-    layout.columns = std::max(layout.columns, place + 1);
+  // Of the tags alone a row may say nothing: one cut off before must not become a curve of its own.
+  for (const TableColumn column : {k_x, k_y, k_z, k_nx, k_ny, k_nz, k_curve}) {
+    if (layout.has(column)) layout.columns = std::max(layout.columns, layout.place[column] + 1);
   }
 }
 
@@ -158,7 +165,7 @@ size_t curve_column(const LineScanner& at_first_row, std::string_view text, char
   CurveColumn first, last;
   LineScanner scanner(at_first_row.file(), text, false);
   while (scanner.next('#')) {
-    const std::vector<std::string_view> cells = cells_of(scanner, separator);
+    const std::vector<std::string_view> cells = counted_cells(scanner, separator);
     if (cells.size() < count) continue;  // titles, empty rows, or a fault that is found later
     first.take(cells[0], separator);
     last.take(cells[count - 1], separator);
@@ -193,7 +200,7 @@ bool take_layout(const LineScanner& scanner, std::string_view text, TableLayout&
                  std::vector<std::string>& ignored) {
   layout.known = true;
   layout.separator = separator_of(trimmed(scanner.text()));
-  const std::vector<std::string_view> cells = cells_of(scanner, layout.separator);
+  const std::vector<std::string_view> cells = counted_cells(scanner, layout.separator);
   double number = 0.0;
   const bool header = std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) {
     return cell_number(cell, layout.separator, &number);
@@ -318,6 +325,7 @@ class TableReader {
       }
       return network_.curves.back();
     }
+    if (id.empty()) scanner_.fail("the cell that says which curve this row is of is empty");
     const auto found = curve_of_id_.emplace(std::string(id), network_.curves.size());
     if (found.second) begin_curve(std::string(id));
     return network_.curves[found.first->second];

@@ -53,6 +53,14 @@ TEST_CASE("numbers mean the same under every locale") {
   CHECK(network.positions[1] == 2.5);
 }
 
+TEST_CASE("what a row may leave out: tags, and a normal whose cells are empty") {
+  const Network network = read_table(
+      "f.csv", "x,y,z,curve,nx,ny,nz,sharp\n0,0,0,a,0,0,1,1\n1,0,0,a,,,\n2,0,0,a,0,0,1\n");
+  REQUIRE(network.curves.size() == 1);
+  CHECK(network.curves[0].sharp);
+  CHECK(network.has_normal == std::vector<uint8_t>{1, 0, 1});
+}
+
 TEST_CASE("tabs and a number of the curve without a header; rows of a curve may be apart") {
   const Network tabs = read_table("f.tsv", corpus_file("table/tabs.tsv"));
   REQUIRE(tabs.curves.size() == 2);
@@ -143,6 +151,11 @@ TEST_CASE("complaints name the line and what is wanted") {
   CHECK(complaint("1 2 3\n4 5\n") == "f.csv:2: 2 columns where 3 are needed");
   CHECK(complaint("1 2 3\n4 5 z\n") == "f.csv:2: \"z\" is not a number");
   CHECK(complaint("1 2 3\n4 5 1e999\n") == "f.csv:2: \"1e999\" is too large a number");
+  CHECK(complaint("x,y,z,curve\n0,0,0,a\n1,0,0\n") == "f.csv:3: 3 columns where 4 are needed");
+  CHECK(complaint("x,y,z,curve\n0,0,0,a\n1,0,0,\n") ==
+        "f.csv:3: the cell that says which curve this row is of is empty");
+  CHECK(complaint("x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0\n") ==
+        "f.csv:3: 3 columns where 6 are needed");
   CHECK(complaint("1,2,3\n4,,6\n") == "f.csv:2: an empty cell where a number is needed");
   CHECK(complaint("1,5 2,5 3,5\n") ==
         "f.csv:1: \"5 2\" is not a number (decimal commas need semicolons or tabs between the "
