@@ -502,7 +502,7 @@ typedef struct wsk_surface_view {
   uint32_t curve_edge_count;
 
   const double* positions;      /* 3 a vertex */
-  const double* normals;        /* 3 a vertex: unit normals of the mesh */
+  const double* normals;        /* 3 a vertex: unit normals of the mesh; at creases see below */
   const double* mean_curvature; /* 1 a vertex: (k1 + k2) / 2, positive on a sphere, per length */
   const double* gaussian_curvature; /* 1 a vertex: k1 k2, per square length */
   const uint32_t* vertex_curve; /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
@@ -522,6 +522,14 @@ typedef struct wsk_surface_view {
   const char* const* patch_sentence; /* 1 a patch: "", or what was wrong in words; static text */
   const uint32_t* patch_curve_start; /* patch_count + 1: patch p has the caller's curves */
   const uint32_t* patch_curves;      /* patch_curves[patch_curve_start[p]] and so on, ascending */
+
+  /* Corners whose vertex has several sides, of which `normals` holds the mean: at sharp curves; and
+     in surfaces from curves alone, without normals that shaped them, at edges of curves where the
+     surface turns by more than 20 degrees or more than two patches meet. Corner k of triangle t is
+     3 t + k; ascending. Null, and none, where there is no crease. */
+  const uint32_t* crease_corners;
+  const double* crease_normals; /* 3 a corner: the unit normal of its own side */
+  uint32_t crease_corner_count;
 } wsk_surface_view;
 
 /* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is
@@ -1968,6 +1976,61 @@ inline void patches_of_vertices(Span<const uint32_t> triangles, Span<const uint3
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/mesh.h ======== */
 
+/* ======== begin src/mesh/cut.h ======== */
+/* A mesh cut open along some of its edges: every vertex has a copy in each sector of its fan */
+/* between two cut edges, so that the sides of a crease no longer know of each other. */
+/* */
+/* In: a mesh, its twins (k_none also where it is no manifold: there it is cut in any case), and its */
+/* marked half-edges (an edge counts when both of its half-edges are marked). Out: triangles over */
+/* the copies, in the same order, and the vertex each copy came from. A vertex of one sector keeps */
+/* its number (the end of a cut inside the mesh does); one copy of each other vertex keeps it too, */
+/* the rest follow behind. O(triangles). */
+
+namespace wireskin::mesh {
+
+struct Cut {
+  Array<uint32_t> triangle;
+  Array<uint32_t> origin;  /* of each copy */
+
+  explicit Cut(Context& context) : triangle(context), origin(context) {}
+  uint32_t vertices() const { return static_cast<uint32_t>(origin.size()); }
+};
+
+Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
+                Span<const uint8_t> marked, Cut* cut);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/cut.h ======== */
+
+/* ======== begin src/mesh/crease_normals.h ======== */
+/* Normals of corners: where a mesh has creases, one normal a vertex blends their sides. */
+/* */
+/* In: a mesh cut open along its creases and the normals of its copies; or a mesh, a manifold or */
+/* not, and which of its vertices lie on curves: its creases are then the edges between two of these */
+/* at which it turns by more than 20 degrees, and all edges at which other than two triangles of one */
+/* orientation meet. Out: the corners, ascending, of vertices that creases, or fans that only touch */
+/* there, part into several sectors, each with the normal of its own sector. O(triangles). */
+
+namespace wireskin::mesh {
+
+struct CornerNormals {
+  Array<uint32_t> corner;  /* half-edges, which leave the vertex of the corner */
+  Array<Vec3> normal;      /* of each, unit */
+
+  explicit CornerNormals(Context& context) : corner(context), normal(context) {}
+};
+
+/* `vertices`: of the mesh before it was cut; `normal`: of each copy. */
+Status corner_normals(const Cut& cut, uint32_t vertices, Span<const Vec3> normal,
+                      CornerNormals* result);
+
+Status find_crease_normals(Context& context, Span<const Vec3> positions,
+                           Span<const uint32_t> triangles, Span<const uint8_t> on_curve,
+                           CornerNormals* result);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/crease_normals.h ======== */
+
 /* ======== begin src/mesh/measure.h ======== */
 /* Measures of a finished mesh: Gaussian curvature, how far its normals are from those given, and */
 /* how sharply it bends across curves. */
@@ -2724,6 +2787,7 @@ struct Surface {
   Counts counts;
   Array<Vec3> position;
   Array<Vec3> normal;  /* of the mesh */
+  mesh::CornerNormals crease_normals;
   Array<double> mean_curvature;
   Array<double> gaussian_curvature;
   Array<uint32_t> vertex_curve;   /* k_none where free */
@@ -2738,6 +2802,7 @@ struct Surface {
   explicit Surface(Context& context)
       : position(context),
         normal(context),
+        crease_normals(context),
         mean_curvature(context),
         gaussian_curvature(context),
         vertex_curve(context),
@@ -5559,31 +5624,6 @@ Status find_inverted(Context& context, Span<const Vec3> position, Span<const uin
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/inverted.h ======== */
 
-/* ======== begin src/mesh/cut.h ======== */
-/* A mesh cut open along some of its edges: every vertex has a copy in each sector of its fan */
-/* between two cut edges, so that the sides of a crease no longer know of each other. */
-/* */
-/* In: a manifold mesh and its marked half-edges (an edge counts when both of its half-edges are */
-/* marked). Out: triangles over the copies, in the same order, and the vertex each copy came from. A */
-/* vertex of one sector keeps its number (the end of a cut inside the mesh does); one copy of each */
-/* other vertex keeps it too, the rest follow behind. O(triangles). */
-
-namespace wireskin::mesh {
-
-struct Cut {
-  Array<uint32_t> triangle;
-  Array<uint32_t> origin;  /* of each copy */
-
-  explicit Cut(Context& context) : triangle(context), origin(context) {}
-  uint32_t vertices() const { return static_cast<uint32_t>(origin.size()); }
-};
-
-Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint8_t> marked,
-                Cut* cut);
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/cut.h ======== */
-
 /* ======== begin src/mesh/dome.h ======== */
 /* Raises a mesh inside closed loops so that it leaves them along their normals, curved as they are. */
 /* */
@@ -6352,6 +6392,7 @@ struct VertexMeasures {
   Span<Vec3> normal;
   Span<double> mean_curvature;
   Span<Vec3> constraint_normal;  /* zero where free, or not known */
+  mesh::CornerNormals* crease_normals;
   /* Over the sides, and over the edges of the curves that are no creases. */
   mesh::AngleStatistics* normal_deviation;
   mesh::AngleStatistics* dihedral;
@@ -8831,6 +8872,150 @@ double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/mesh.cpp ======== */
+
+/* ======== begin src/mesh/cut.cpp ======== */
+namespace wireskin::mesh {
+
+/* The clockwise-most corner of the sector of corner h, a half-edge that leaves its vertex: cuts and */
+/* borders end the walk, or else it comes back to h. */
+static uint32_t first_of_sector(Span<const uint32_t> twins, Span<const uint8_t> marked,
+                                uint32_t h) {
+  uint32_t g = h;
+  while (!marked[g] && twins[g] != k_none) {
+    g = next_half_edge(twins[g]);
+    if (g == h) break;
+  }
+  return g;
+}
+
+Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
+                Span<const uint8_t> marked, Cut* cut) {
+  Array<uint8_t> taken(cut->origin.context());
+  TRY(taken.assign(vertices, 0));
+  TRY(cut->triangle.assign(triangles.size(), k_none));
+  TRY(cut->origin.resize(vertices));
+  for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
+    if (cut->triangle[h] != k_none) continue;
+    const uint32_t v = triangles[h];
+    uint32_t copy = v;
+    if (taken[v]) {
+      copy = cut->vertices();
+      TRY(cut->origin.push(v));
+    }
+    taken[v] = 1;
+    const uint32_t first = first_of_sector(twins, marked, h);
+    for (uint32_t g = first; g != k_none;) {
+      cut->triangle[g] = copy;
+      const uint32_t across = previous_half_edge(g);
+      g = marked[across] ? k_none : twins[across];
+      if (g == first) break;
+    }
+  }
+  return {};
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/cut.cpp ======== */
+
+/* ======== begin src/mesh/crease_normals.cpp ======== */
+namespace wireskin::mesh {
+
+/* A coarse round shape turns less than this between its triangles; what turns more is an edge. */
+constexpr double k_crease_cosine = 0.93969262078590838;  /* of 20 degrees */
+
+Status corner_normals(const Cut& cut, uint32_t vertices, Span<const Vec3> normal,
+                      CornerNormals* result) {
+  result->corner.clear();
+  result->normal.clear();
+  if (cut.vertices() == vertices) return {};
+  Array<uint8_t> parted(result->corner.context());
+  TRY(parted.assign(vertices, 0));
+  for (uint32_t c = vertices; c < cut.vertices(); ++c) parted[cut.origin[c]] = 1;
+  for (uint32_t h = 0; h < cut.triangle.size(); ++h) {
+    const uint32_t copy = cut.triangle[h];
+    if (!parted[cut.origin[copy]]) continue;
+    TRY(result->corner.push(h));
+    TRY(result->normal.push(normal[copy]));
+  }
+  return {};
+}
+
+namespace {
+
+/* Of one vertex's edges to each neighbour: how many half-edges leave for it, and arrive from it. */
+struct EdgeCount {
+  uint32_t leaving = 0, arriving = 0;
+  uint32_t last = k_none;  /* the last that arrives */
+};
+
+}  /* namespace */
+
+/* The twins of those edges that have exactly two half-edges, one each way; k_none at all others. */
+static Status find_manifold_twins(uint32_t vertices, Span<const uint32_t> triangles,
+                                  Array<uint32_t>* twins) {
+  Context& context = twins->context();
+  Array<uint32_t> start(context), corner(context);
+  Array<EdgeCount> to(context);
+  TRY(find_corners(vertices, triangles, &start, &corner));
+  TRY(to.assign(vertices, EdgeCount{}));
+  TRY(twins->resize(triangles.size()));
+  for (uint32_t v = 0; v < vertices; ++v) {
+    const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
+    for (const uint32_t h : leaving) {
+      const uint32_t arriving = previous_half_edge(h);
+      EdgeCount& from = to[triangles[arriving]];
+      ++to[triangles[next_half_edge(h)]].leaving;
+      ++from.arriving;
+      from.last = arriving;
+    }
+    for (const uint32_t h : leaving) {
+      const EdgeCount& edge = to[triangles[next_half_edge(h)]];
+      (*twins)[h] = edge.leaving == 1 && edge.arriving == 1 ? edge.last : k_none;
+    }
+    for (const uint32_t h : leaving) {
+      to[triangles[next_half_edge(h)]] = to[triangles[previous_half_edge(h)]] = EdgeCount{};
+    }
+    if (v % 65536 == 65535) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+static Vec3 face_normal(Span<const Vec3> positions, Span<const uint32_t> triangles, uint32_t h) {
+  const uint32_t* v = &triangles[h - h % 3];
+  return unit(cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]));
+}
+
+Status find_crease_normals(Context& context, Span<const Vec3> positions,
+                           Span<const uint32_t> triangles, Span<const uint8_t> on_curve,
+                           CornerNormals* result) {
+  const uint32_t vertices = static_cast<uint32_t>(positions.size());
+  Array<uint32_t> twins(context);
+  Array<uint8_t> crease(context);
+  Array<Vec3> place(context), normal(context);
+  Cut cut(context);
+  TRY(find_manifold_twins(vertices, triangles, &twins));
+  TRY(crease.assign(triangles.size(), 0));
+  for (uint32_t h = 0; h < triangles.size(); ++h) {
+    if (h % 65536 == 65535) TRY(context.checkpoint());
+    const uint32_t twin = twins[h];
+    if (twin == k_none || twin < h) continue;
+    if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
+    const Vec3 here = face_normal(positions, triangles, h);
+    const Vec3 there = face_normal(positions, triangles, twin);
+    crease[h] = crease[twin] = dot(here, there) < k_crease_cosine;
+  }
+  TRY(cut_open(vertices, triangles, twins.span(), crease.span(), &cut));
+  TRY(place.resize(cut.vertices()));
+  TRY(normal.resize(cut.vertices()));
+  for (uint32_t c = 0; c < cut.vertices(); ++c) place[c] = positions[cut.origin[c]];
+  vertex_normals(place.span(), cut.triangle.span(), normal.span());
+  return corner_normals(cut, vertices, normal.span(), result);
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/crease_normals.cpp ======== */
 
 /* ======== begin src/mesh/measure.cpp ======== */
 namespace wireskin::mesh {
@@ -12291,7 +12476,8 @@ namespace wireskin::api {
 /* Where the arrays of a surface's view stand in its block. */
 struct SurfaceLayout {
   size_t positions, normals, curvature, gaussian, constraint, vertex_curve, triangle, patch;
-  size_t edges, edge_curve, guarded, sentences, statuses, ways, patch_start, patch_curve, bytes;
+  size_t edges, edge_curve, guarded, sentences, statuses, ways, patch_start, patch_curve;
+  size_t crease_corners, crease_normals, bytes;
 
   explicit SurfaceLayout(const Surface& surface) {
     const size_t n = surface.position.size(), triangles = surface.patch.size();
@@ -12313,6 +12499,8 @@ struct SurfaceLayout {
     ways = layout.add_array<uint8_t>(listed);
     patch_start = layout.add_array<uint32_t>(surface.patches.curve_start.size());
     patch_curve = layout.add_array<uint32_t>(surface.patches.curve.size());
+    crease_corners = layout.add_array<uint32_t>(surface.crease_normals.corner.size());
+    crease_normals = layout.add_array<double>(3 * surface.crease_normals.normal.size());
     bytes = layout.bytes();
   }
 
@@ -12389,6 +12577,12 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
     view.patch_guarded = block + layout.guarded;
   }
   write_patch_list(surface, layout, block, &view);
+  view.crease_corner_count = static_cast<uint32_t>(surface.crease_normals.corner.size());
+  view.crease_corners = write_indices(block, layout.crease_corners, surface.crease_normals.corner);
+  if (view.crease_corner_count > 0) {
+    view.crease_normals =
+        write_vectors(block, layout.crease_normals, surface.crease_normals.normal.span(), none);
+  }
   *out = handle;
   return context.progress(1.0);
 }
@@ -16703,13 +16897,15 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   mesh::vertex_normals(surface->position.span(), surface->triangle.span(), surface->normal.span());
   TRY(surface->mean_curvature.assign(n, 0.0));
   TRY(surface->gaussian_curvature.assign(n, 0.0));
+  Array<uint8_t> on_curve(context);
+  TRY(on_curve.resize(n));
+  for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
+  TRY(mesh::find_crease_normals(context, surface->position.span(), surface->triangle.span(),
+                                on_curve.span(), &surface->crease_normals));
   surface->counts.least_angle =
       mesh::least_angle(surface->position.span(), surface->triangle.span());
   if (!measurable) return {};
   TRY(count_inverted(context, surface));
-  Array<uint8_t> on_curve(context);
-  TRY(on_curve.resize(n));
-  for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
   TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
                            surface->triangle.span(), topology.on_border.span(),
                            &surface->mean_curvature));
@@ -23586,54 +23782,6 @@ Status find_inverted(Context& context, Span<const Vec3> position, Span<const uin
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/inverted.cpp ======== */
 
-/* ======== begin src/mesh/cut.cpp ======== */
-namespace wireskin::mesh {
-
-/* The clockwise-most corner of the sector of corner h, a half-edge that leaves its vertex: cuts and */
-/* borders end the walk, or else it comes back to h. */
-static uint32_t first_of_sector(Span<const uint32_t> twins, Span<const uint8_t> marked,
-                                uint32_t h) {
-  uint32_t g = h;
-  while (!marked[g] && twins[g] != k_none) {
-    g = next_half_edge(twins[g]);
-    if (g == h) break;
-  }
-  return g;
-}
-
-Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint8_t> marked,
-                Cut* cut) {
-  Array<uint32_t> twins(cut->origin.context());
-  Array<uint8_t> taken(cut->origin.context());
-  TRY(find_twins(vertices, triangles, &twins));
-  TRY(taken.assign(vertices, 0));
-  TRY(cut->triangle.assign(triangles.size(), k_none));
-  TRY(cut->origin.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
-    if (cut->triangle[h] != k_none) continue;
-    const uint32_t v = triangles[h];
-    uint32_t copy = v;
-    if (taken[v]) {
-      copy = cut->vertices();
-      TRY(cut->origin.push(v));
-    }
-    taken[v] = 1;
-    const uint32_t first = first_of_sector(twins.span(), marked, h);
-    for (uint32_t g = first; g != k_none;) {
-      cut->triangle[g] = copy;
-      const uint32_t across = previous_half_edge(g);
-      g = marked[across] ? k_none : twins[across];
-      if (g == first) break;
-    }
-  }
-  return {};
-}
-
-}  /* namespace wireskin::mesh */
-/* ======== end src/mesh/cut.cpp ======== */
-
 /* ======== begin src/mesh/dome.cpp ======== */
 namespace wireskin::mesh {
 
@@ -26766,12 +26914,14 @@ static Status cut_mesh(const Network& network, const CurveVertices& vertices,
                        Span<const uint8_t> sharp, const Corners& corners, uint32_t count,
                        CreasedMesh* creased) {
   Array<uint8_t> marked(creased->held.context());
+  Array<uint32_t> twins(creased->held.context());
+  TRY(mesh::find_twins(count, corners.triangle, &twins));
   TRY(marked.assign(corners.triangle.size(), 0));
   for_curve_sides(network, vertices, corners,
                   [&](uint32_t s, const Vec3&, const Vec3&, uint32_t h) {
                     if (sharp[network.segment[s].curve]) marked[h] = 1;
                   });
-  return mesh::cut_open(count, corners.triangle, marked.span(), &creased->cut);
+  return mesh::cut_open(count, corners.triangle, twins.span(), marked.span(), &creased->cut);
 }
 
 /* The mean of the normals known in every sector, and whether it opposes one of them. */
@@ -26871,6 +27021,8 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Ve
     measures.mean_curvature[v] /= count[v];
     measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
   }
+  TRY(mesh::corner_normals(creased.cut, static_cast<uint32_t>(n), normal.span(),
+                           measures.crease_normals));
   *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
   return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
                                creased.held.span(), true, measures.dihedral);
@@ -33290,7 +33442,7 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   return network::measure_sides(
       context, *creased, given_normal.span(), surface->patch.span(),
       {surface->normal.span(), surface->mean_curvature.span(), surface->constraint_normal.span(),
-       &surface->counts.normal_deviation, &surface->counts.dihedral});
+       &surface->crease_normals, &surface->counts.normal_deviation, &surface->counts.dihedral});
 }
 
 Status measure_constraints(const CurveSet& set, Span<const Vec3> given, Surface* surface) {

@@ -6,6 +6,7 @@
 // reported with them.
 #pragma once
 
+#include "mesh/crease_normals.h"
 #include "mesh/measure.h"
 #include "network/smoothing.h"
 #include "smooth/smooth.h"
@@ -81,6 +82,7 @@ struct Surface {
   Counts counts;
   Array<Vec3> position;
   Array<Vec3> normal;  // of the mesh
+  mesh::CornerNormals crease_normals;
   Array<double> mean_curvature;
   Array<double> gaussian_curvature;
   Array<uint32_t> vertex_curve;   // k_none where free
@@ -95,6 +97,7 @@ struct Surface {
   explicit Surface(Context& context)
       : position(context),
         normal(context),
+        crease_normals(context),
         mean_curvature(context),
         gaussian_curvature(context),
         vertex_curve(context),

@@ -496,7 +496,7 @@ typedef struct wsk_surface_view {
   uint32_t curve_edge_count;
 
   const double* positions;      /* 3 a vertex */
-  const double* normals;        /* 3 a vertex: unit normals of the mesh */
+  const double* normals;        /* 3 a vertex: unit normals of the mesh; at creases see below */
   const double* mean_curvature; /* 1 a vertex: (k1 + k2) / 2, positive on a sphere, per length */
   const double* gaussian_curvature; /* 1 a vertex: k1 k2, per square length */
   const uint32_t* vertex_curve; /* 1 a vertex: the caller's curve (at a node the least), WSK_NONE
@@ -516,6 +516,14 @@ typedef struct wsk_surface_view {
   const char* const* patch_sentence; /* 1 a patch: "", or what was wrong in words; static text */
   const uint32_t* patch_curve_start; /* patch_count + 1: patch p has the caller's curves */
   const uint32_t* patch_curves;      /* patch_curves[patch_curve_start[p]] and so on, ascending */
+
+  /* Corners whose vertex has several sides, of which `normals` holds the mean: at sharp curves; and
+     in surfaces from curves alone, without normals that shaped them, at edges of curves where the
+     surface turns by more than 20 degrees or more than two patches meet. Corner k of triangle t is
+     3 t + k; ascending. Null, and none, where there is no crease. */
+  const uint32_t* crease_corners;
+  const double* crease_normals; /* 3 a corner: the unit normal of its own side */
+  uint32_t crease_corner_count;
 } wsk_surface_view;
 
 /* Fills *view. `size` is sizeof(wsk_surface_view) as the caller knows it; nothing beyond it is

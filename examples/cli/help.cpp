@@ -35,7 +35,7 @@ Boundary curves are those where the surface ends. Normals point to the outer sid
 none the curves alone give the surface (--topology flow).
 
 OUTPUT is the surface; -o may be repeated:
-  .obj   positions, normals, a group patch_K for each patch
+  .obj   positions, normals (at creases one for each side), a group patch_K for each patch
   .ply   binary: positions, normals, mean curvature, the patch of each triangle
   .stl   binary: triangles
   -      the standard output, in the format of --format; report, image or page may go there instead

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "camera.h"
+#include "corners.h"
 #include "raster.h"
 
 namespace wireskin_cli {
@@ -49,13 +50,14 @@ Rgb shade(const Vec3& normal, bool back, const Vec3& isophotes, const Vec3& towa
 
 void draw_surface(Canvas& canvas, const Camera& camera, const Vec3& isophotes,
                   const wsk_surface_view& surface) {
+  const std::vector<const double*> normals = normals_of_corners(surface);
   for (size_t t = 0; t < surface.triangle_count; ++t) {
     ScreenPoint p[3];
     Vec3 n[3];
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t v = surface.triangles[3 * t + k];
       p[k] = camera.project(vec3_at(surface.positions, v));
-      n[k] = vec3_at(surface.normals, v);
+      n[k] = vec3_at(normals[3 * t + k], 0);
     }
     // y runs down, so a triangle that is counter-clockwise for the eye turns the other way here.
     const bool back = turn(p[0], p[1], p[2].x, p[2].y) > 0.0;

@@ -1,9 +1,11 @@
 #include "write_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <vector>
 
 #include "bytes.h"
@@ -51,6 +53,22 @@ static void append_curves(std::string& text, const wsk_surface_view& surface) {
   if (surface.curve_edge_count != 0) text += "\n";
 }
 
+// Which row of normals each corner has, from 1: those of the vertices come first, then those of
+// the sides of creases, each once, which are appended to `text`.
+static std::vector<size_t> append_crease_normals(std::string& text,
+                                                 const wsk_surface_view& surface) {
+  std::vector<size_t> row(3 * static_cast<size_t>(surface.triangle_count));
+  for (size_t h = 0; h < row.size(); ++h) row[h] = surface.triangles[h] + 1ull;
+  std::map<std::array<double, 3>, size_t> rows;
+  for (size_t i = 0; i < surface.crease_corner_count; ++i) {
+    const double* n = surface.crease_normals + 3 * i;
+    const auto added = rows.insert({{n[0], n[1], n[2]}, surface.vertex_count + rows.size() + 1});
+    if (added.second) append_row(text, "vn", n);
+    row[surface.crease_corners[i]] = added.first->second;
+  }
+  return row;
+}
+
 std::string obj_bytes(const wsk_surface_view& surface, bool curves) {
   std::string text = std::string("# wireskin ") + wsk_version_string() + "\n";
   for (size_t v = 0; v < surface.vertex_count; ++v) {
@@ -59,6 +77,7 @@ std::string obj_bytes(const wsk_surface_view& surface, bool curves) {
   for (size_t v = 0; v < surface.vertex_count; ++v) {
     append_row(text, "vn", surface.normals + 3 * v);
   }
+  const std::vector<size_t> normal_row = append_crease_normals(text, surface);
   uint32_t patch = WSK_NONE;
   for (const uint32_t t : triangles_by_patch(surface)) {
     if (surface.triangle_patch[t] != patch) {
@@ -67,11 +86,11 @@ std::string obj_bytes(const wsk_surface_view& surface, bool curves) {
     }
     text += 'f';
     for (size_t k = 0; k < 3; ++k) {
-      const std::string index = std::to_string(surface.triangles[3 * size_t{t} + k] + 1ull);
+      const size_t h = 3 * size_t{t} + k;
       text += ' ';
-      text += index;
+      text += std::to_string(surface.triangles[h] + 1ull);
       text += "//";
-      text += index;
+      text += std::to_string(normal_row[h]);
     }
     text += '\n';
   }

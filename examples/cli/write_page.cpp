@@ -84,6 +84,15 @@ void add_surface(const wsk_surface_view& surface, const Point& origin, Arrays& a
   arrays.add_float("curvature", {surface.mean_curvature, surface.mean_curvature + n});
   arrays.add_index("triangles", {surface.triangles, surface.triangles + 3 * m});
   arrays.add_index("patch", {surface.triangle_patch, surface.triangle_patch + m});
+  const size_t corners = surface.crease_corner_count;
+  std::vector<uint32_t> crease_corners;
+  std::vector<double> crease_normals;
+  if (corners > 0) {
+    crease_corners.assign(surface.crease_corners, surface.crease_corners + corners);
+    crease_normals.assign(surface.crease_normals, surface.crease_normals + 3 * corners);
+  }
+  arrays.add_index("creaseCorners", crease_corners);
+  arrays.add_unit("creaseNormals", crease_normals);
   std::vector<uint32_t> edges;
   if (surface.curve_edges != nullptr) {
     edges.assign(surface.curve_edges,

@@ -219,7 +219,7 @@ export class Renderer {
   }
 
   loadSurface(scene) {
-    const { triangles, positions, normals, curvature, patch } = scene;
+    const { triangles, positions, normals, curvature, patch, creaseCorners, creaseNormals } = scene;
     const count = triangles.length;
     const corners = {
       position: new Float32Array(3 * count),
@@ -240,6 +240,9 @@ export class Renderer {
       }
       corners.curvature[h] = curvature[v];
     }
+    creaseCorners.forEach((h, i) => {
+      for (let k = 0; k < 3; ++k) corners.normal[3 * h + k] = creaseNormals[3 * i + k];
+    });
     this.surface = { array: this.newArray(), count };
     attribute(this.gl, this.surfaceProgram, "position", corners.position, 3);
     attribute(this.gl, this.surfaceProgram, "normal", corners.normal, 3);

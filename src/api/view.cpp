@@ -5,7 +5,8 @@ namespace wireskin::api {
 // Where the arrays of a surface's view stand in its block.
 struct SurfaceLayout {
   size_t positions, normals, curvature, gaussian, constraint, vertex_curve, triangle, patch;
-  size_t edges, edge_curve, guarded, sentences, statuses, ways, patch_start, patch_curve, bytes;
+  size_t edges, edge_curve, guarded, sentences, statuses, ways, patch_start, patch_curve;
+  size_t crease_corners, crease_normals, bytes;
 
   explicit SurfaceLayout(const Surface& surface) {
     const size_t n = surface.position.size(), triangles = surface.patch.size();
@@ -27,6 +28,8 @@ struct SurfaceLayout {
     ways = layout.add_array<uint8_t>(listed);
     patch_start = layout.add_array<uint32_t>(surface.patches.curve_start.size());
     patch_curve = layout.add_array<uint32_t>(surface.patches.curve.size());
+    crease_corners = layout.add_array<uint32_t>(surface.crease_normals.corner.size());
+    crease_normals = layout.add_array<double>(3 * surface.crease_normals.normal.size());
     bytes = layout.bytes();
   }
 
@@ -103,6 +106,12 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
     view.patch_guarded = block + layout.guarded;
   }
   write_patch_list(surface, layout, block, &view);
+  view.crease_corner_count = static_cast<uint32_t>(surface.crease_normals.corner.size());
+  view.crease_corners = write_indices(block, layout.crease_corners, surface.crease_normals.corner);
+  if (view.crease_corner_count > 0) {
+    view.crease_normals =
+        write_vectors(block, layout.crease_normals, surface.crease_normals.normal.span(), none);
+  }
   *out = handle;
   return context.progress(1.0);
 }

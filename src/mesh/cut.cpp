@@ -14,11 +14,9 @@ static uint32_t first_of_sector(Span<const uint32_t> twins, Span<const uint8_t> 
   return g;
 }
 
-Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint8_t> marked,
-                Cut* cut) {
-  Array<uint32_t> twins(cut->origin.context());
+Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
+                Span<const uint8_t> marked, Cut* cut) {
   Array<uint8_t> taken(cut->origin.context());
-  TRY(find_twins(vertices, triangles, &twins));
   TRY(taken.assign(vertices, 0));
   TRY(cut->triangle.assign(triangles.size(), k_none));
   TRY(cut->origin.resize(vertices));
@@ -33,7 +31,7 @@ Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const ui
       TRY(cut->origin.push(v));
     }
     taken[v] = 1;
-    const uint32_t first = first_of_sector(twins.span(), marked, h);
+    const uint32_t first = first_of_sector(twins, marked, h);
     for (uint32_t g = first; g != k_none;) {
       cut->triangle[g] = copy;
       const uint32_t across = previous_half_edge(g);

@@ -47,12 +47,14 @@ static Status cut_mesh(const Network& network, const CurveVertices& vertices,
                        Span<const uint8_t> sharp, const Corners& corners, uint32_t count,
                        CreasedMesh* creased) {
   Array<uint8_t> marked(creased->held.context());
+  Array<uint32_t> twins(creased->held.context());
+  TRY(mesh::find_twins(count, corners.triangle, &twins));
   TRY(marked.assign(corners.triangle.size(), 0));
   for_curve_sides(network, vertices, corners,
                   [&](uint32_t s, const Vec3&, const Vec3&, uint32_t h) {
                     if (sharp[network.segment[s].curve]) marked[h] = 1;
                   });
-  return mesh::cut_open(count, corners.triangle, marked.span(), &creased->cut);
+  return mesh::cut_open(count, corners.triangle, twins.span(), marked.span(), &creased->cut);
 }
 
 // The mean of the normals known in every sector, and whether it opposes one of them.
@@ -152,6 +154,8 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Ve
     measures.mean_curvature[v] /= count[v];
     measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
   }
+  TRY(mesh::corner_normals(creased.cut, static_cast<uint32_t>(n), normal.span(),
+                           measures.crease_normals));
   *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
   return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
                                creased.held.span(), true, measures.dihedral);

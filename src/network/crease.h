@@ -8,7 +8,7 @@
 // together. O(triangles).
 #pragma once
 
-#include "mesh/cut.h"
+#include "mesh/crease_normals.h"
 #include "mesh/measure.h"
 #include "network/patch_mesh.h"
 
@@ -47,6 +47,7 @@ struct VertexMeasures {
   Span<Vec3> normal;
   Span<double> mean_curvature;
   Span<Vec3> constraint_normal;  // zero where free, or not known
+  mesh::CornerNormals* crease_normals;
   // Over the sides, and over the edges of the curves that are no creases.
   mesh::AngleStatistics* normal_deviation;
   mesh::AngleStatistics* dihedral;

@@ -200,7 +200,7 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   return network::measure_sides(
       context, *creased, given_normal.span(), surface->patch.span(),
       {surface->normal.span(), surface->mean_curvature.span(), surface->constraint_normal.span(),
-       &surface->counts.normal_deviation, &surface->counts.dihedral});
+       &surface->crease_normals, &surface->counts.normal_deviation, &surface->counts.dihedral});
 }
 
 Status measure_constraints(const CurveSet& set, Span<const Vec3> given, Surface* surface) {

@@ -166,13 +166,15 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   mesh::vertex_normals(surface->position.span(), surface->triangle.span(), surface->normal.span());
   TRY(surface->mean_curvature.assign(n, 0.0));
   TRY(surface->gaussian_curvature.assign(n, 0.0));
+  Array<uint8_t> on_curve(context);
+  TRY(on_curve.resize(n));
+  for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
+  TRY(mesh::find_crease_normals(context, surface->position.span(), surface->triangle.span(),
+                                on_curve.span(), &surface->crease_normals));
   surface->counts.least_angle =
       mesh::least_angle(surface->position.span(), surface->triangle.span());
   if (!measurable) return {};
   TRY(count_inverted(context, surface));
-  Array<uint8_t> on_curve(context);
-  TRY(on_curve.resize(n));
-  for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
   TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
                            surface->triangle.span(), topology.on_border.span(),
                            &surface->mean_curvature));

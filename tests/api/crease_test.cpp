@@ -110,6 +110,35 @@ TEST_CASE("creases: a can is a cylinder as without its lids, and these are flat"
   }
 }
 
+TEST_CASE("creases: each corner has the normal of its own side") {
+  const Built b = must_build(can(Rim::crease, 24), WSK_METHOD_FAIR, 0.1);
+  std::vector<uint8_t> has_sides(b.position.size(), 0);
+  int lids = 0;
+  for (size_t i = 0; i < b.crease_corner.size(); ++i) {
+    const uint32_t corner = b.crease_corner[i];
+    if (i > 0) CHECK(b.crease_corner[i - 1] < corner);
+    const P p = b.position[b.triangle[corner]], n = b.crease_normal[i];
+    has_sides[b.triangle[corner]] = 1;
+    const bool lid = std::fabs(n.z) > 0.9;
+    lids += lid;
+    const P wish = lid ? P{0, 0, p.z > 0.0 ? 1.0 : -1.0} : P{p.x, p.y, 0};
+    CHECK(std::fabs(dot(n, wish) - 1.0) < (lid ? 1e-9 : 1e-3));
+  }
+  CHECK(lids > 0);
+  CHECK(lids < static_cast<int>(b.crease_corner.size()));
+  // All corners of a vertex or none; the vertices of both rims and no others.
+  size_t corners = 0;
+  for (const uint32_t v : b.triangle) corners += has_sides[v];
+  CHECK(corners == b.crease_corner.size());
+  for (size_t v = 0; v < b.position.size(); ++v) {
+    const P p = b.position[v];
+    const double radius = std::hypot(p.x, p.y);
+    const bool rim = std::fabs(radius - 1.0) < 1e-5 && std::fabs(p.z) > 1.0 - 1e-9;
+    CHECK(rim == (has_sides[v] != 0));
+  }
+  CHECK(must_build(can(Rim::border, 24), WSK_METHOD_FAIR, 0.1).crease_corner.empty());
+}
+
 TEST_CASE("creases: a can whose lines alone have normals") {
   const Built b = must_build(can(Rim::bare_crease, 24), WSK_METHOD_FAIR, 0.1);
   CHECK(error_of(b, cylinder_distance, on_side).rms < 2e-4);

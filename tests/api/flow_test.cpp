@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "support/faulty_allocator.h"
+#include "support/scenes.h"
 
 namespace {
 
@@ -176,6 +177,31 @@ TEST_CASE("A cube's edges become a cube") {
     CHECK(p.front == 0);
     CHECK(p.back == 1);
     CHECK(p.area == doctest::Approx(1.0).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("Corners at a cube's edges have their own faces' normals") {
+  const scenes::Scene cube = [] {
+    for (const scenes::Scene& scene : scenes::all()) {
+      if (scene.name == "flow_box") return scene;
+    }
+    return scenes::Scene{};
+  }();
+  const scenes::Result r = scenes::result_of(cube);
+  REQUIRE(!r.crease_corners.empty());
+  for (size_t i = 0; i < r.crease_corners.size(); ++i) {
+    const uint32_t* v = &r.triangles[r.crease_corners[i] / 3 * 3];
+    double edge[2][3], across[3], norm = 0.0, cosine = 0.0;
+    for (size_t k = 0; k < 6; ++k) {
+      edge[k / 3][k % 3] = r.positions[3 * v[1 + k / 3] + k % 3] - r.positions[3 * v[0] + k % 3];
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t m = (k + 1) % 3, n = (k + 2) % 3;
+      across[k] = edge[0][m] * edge[1][n] - edge[0][n] * edge[1][m];
+      norm += across[k] * across[k];
+      cosine += across[k] * r.crease_normals[3 * i + k];
+    }
+    CHECK(cosine / std::sqrt(norm) > 1.0 - 1e-9);
   }
 }
 

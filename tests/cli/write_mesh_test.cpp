@@ -40,6 +40,23 @@ TEST_CASE("OBJ: normals beside vertices, one group a patch in order") {
                                         "g patch_1\nf 1//1 2//2 3//3\n");
 }
 
+TEST_CASE("OBJ: corners at creases have the normals of their own side") {
+  Square square;
+  wsk_surface_view view = square.view();
+  const uint32_t corners[] = {0, 2, 3, 4};
+  const double normals[] = {1, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0};
+  view.crease_corners = corners;
+  view.crease_normals = normals;
+  view.crease_corner_count = 4;
+  CHECK(obj_bytes(view) == std::string("# wireskin ") + wsk_version_string() +
+                               "\n"
+                               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                               "vn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n"
+                               "vn 1 0 0\nvn 0 1 0\n"
+                               "g patch_0\nf 1//6 3//5 4//4\n"
+                               "g patch_1\nf 1//5 2//2 3//5\n");
+}
+
 TEST_CASE("OBJ: curves as polylines, a new one where the curve changes or breaks off") {
   Square square;
   const std::string plain = obj_bytes(square.view());

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "support/scenes.h"
@@ -26,11 +27,15 @@ TEST_CASE("the reference scenes have the committed bits") {
 }
 
 TEST_CASE("the hash sees every array") {
-  const scenes::Result whole = scenes::result_of(scenes::octants());
+  const std::vector<scenes::Scene> all = scenes::all();
+  const auto creased = std::find_if(all.begin(), all.end(),
+                                    [](const scenes::Scene& scene) { return scene.name == "box"; });
+  REQUIRE(creased != all.end());
+  const scenes::Result whole = scenes::result_of(*creased);
   const uint64_t hash = scenes::hash_of(whole);
   for (std::vector<double> scenes::Result::*array :
        {&scenes::Result::positions, &scenes::Result::normals, &scenes::Result::mean_curvature,
-        &scenes::Result::constraint_normals}) {
+        &scenes::Result::constraint_normals, &scenes::Result::crease_normals}) {
     scenes::Result changed = whole;
     REQUIRE(!(changed.*array).empty());
     double& last = (changed.*array).back();
@@ -39,7 +44,8 @@ TEST_CASE("the hash sees every array") {
   }
   for (std::vector<uint32_t> scenes::Result::*array :
        {&scenes::Result::vertex_curve, &scenes::Result::triangles, &scenes::Result::triangle_patch,
-        &scenes::Result::curve_edges, &scenes::Result::curve_edge_curve}) {
+        &scenes::Result::curve_edges, &scenes::Result::curve_edge_curve,
+        &scenes::Result::crease_corners}) {
     scenes::Result changed = whole;
     REQUIRE(!(changed.*array).empty());
     (changed.*array).back() ^= 1;

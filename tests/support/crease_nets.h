@@ -104,6 +104,8 @@ struct Built {
   std::vector<P> position, normal, constraint;
   std::vector<double> curvature;
   std::vector<uint32_t> curve, triangle, patch;
+  std::vector<uint32_t> crease_corner;
+  std::vector<P> crease_normal;  // of each
   bool is_free(size_t v) const { return curve[v] == WSK_NONE; }
 };
 
@@ -129,6 +131,11 @@ inline Built build(const Net& net, wsk_method method, double spacing) {
     b.curve.push_back(view.vertex_curve[v]);
   }
   b.triangle.assign(view.triangles, view.triangles + 3 * view.triangle_count);
+  for (uint32_t i = 0; i < view.crease_corner_count; ++i) {
+    const double* n = view.crease_normals + 3 * i;
+    b.crease_corner.push_back(view.crease_corners[i]);
+    b.crease_normal.push_back({n[0], n[1], n[2]});
+  }
   b.patch.assign(view.triangle_patch, view.triangle_patch + view.triangle_count);
   wsk_surface_free(surface);
   return b;

@@ -273,6 +273,8 @@ Result copy_of(const wsk_surface* surface) {
   result.triangle_patch = copied(view.triangle_patch, triangles);
   result.curve_edges = copied(view.curve_edges, 2 * size_t{view.curve_edge_count});
   result.curve_edge_curve = copied(view.curve_edge_curve, view.curve_edge_count);
+  result.crease_corners = copied(view.crease_corners, view.crease_corner_count);
+  result.crease_normals = copied(view.crease_normals, 3 * size_t{view.crease_corner_count});
   if (view.patch_guarded != nullptr) {
     result.patch_guarded.assign(view.patch_guarded, view.patch_guarded + view.patch_count);
   }
@@ -314,6 +316,8 @@ uint64_t hash_of(const Result& result) {
   hash_array(&hash, result.triangle_patch);
   hash_array(&hash, result.curve_edges);
   hash_array(&hash, result.curve_edge_curve);
+  hash_array(&hash, result.crease_corners);
+  hash_array(&hash, result.crease_normals);
   return hash;
 }
 
@@ -334,7 +338,9 @@ std::string hashes_by_array(const Result& result) {
          named_hash("triangles", result.triangles) +
          named_hash("triangle_patch", result.triangle_patch) +
          named_hash("curve_edges", result.curve_edges) +
-         named_hash("curve_edge_curve", result.curve_edge_curve);
+         named_hash("curve_edge_curve", result.curve_edge_curve) +
+         named_hash("crease_corners", result.crease_corners) +
+         named_hash("crease_normals", result.crease_normals);
 }
 
 const char* name_of_method(wsk_method method) {

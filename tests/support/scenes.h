@@ -94,8 +94,9 @@ wsk_status run(const Scene& scene, const wsk_options& options, wsk_surface** sur
 // A copy of all that a surface holds.
 struct Result {
   uint32_t patch_count = 0;
-  std::vector<double> positions, normals, mean_curvature, constraint_normals;
-  std::vector<uint32_t> vertex_curve, triangles, triangle_patch, curve_edges, curve_edge_curve;
+  std::vector<double> positions, normals, mean_curvature, constraint_normals, crease_normals;
+  std::vector<uint32_t> vertex_curve, triangles, triangle_patch, curve_edges, curve_edge_curve,
+      crease_corners;
   std::vector<uint8_t> patch_guarded;  // not part of the hash
 };
 

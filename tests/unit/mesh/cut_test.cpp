@@ -44,7 +44,8 @@ struct CutGrid {
       marked.push_back(edges.count({triangles[h], triangles[next_half_edge(h)]}) != 0);
     }
     const uint32_t vertices = (n + 1) * (n + 1);
-    must(cut_open(vertices, view(triangles), view(marked), &cut));
+    must(find_twins(vertices, view(triangles), &twins));
+    must(cut_open(vertices, view(triangles), twins.span(), view(marked), &cut));
     for (uint32_t v = 0; v < vertices; ++v) CHECK(cut.origin[v] == v);
     for (size_t h = 0; h < triangles.size(); ++h) {
       CHECK(cut.origin[cut.triangle[h]] == triangles[h]);
