@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "scan.h"
+#include "vec.h"
 
 namespace wireskin_cli {
 
@@ -76,6 +77,33 @@ static std::string spacing_line(const wsk_surface_view& surface, const wsk_repor
          " between nodes; --spacing LENGTH makes it finer\n";
 }
 
+// How often a curve turns back on itself: by more than 100 degrees at a vertex.
+static size_t turns_back(const Network& network, const NetworkCurve& curve) {
+  constexpr double k_cosine = -0.17364817766693;  // of 100 degrees
+  size_t count = 0;
+  for (size_t i = 2; i < curve.vertices.size(); ++i) {
+    const double* at = network.positions.data();
+    const Vec3 a = vec3_at(at, curve.vertices[i - 2]), b = vec3_at(at, curve.vertices[i - 1]);
+    const Vec3 c = vec3_at(at, curve.vertices[i]);
+    count += dot(unit(b - a), unit(c - b)) < k_cosine;
+  }
+  return count;
+}
+
+// Points in no order that a table passes off as one curve.
+static std::string zigzag_line(const Network& network) {
+  constexpr size_t k_least = 12;  // vertices; of these more than a fourth
+  for (const NetworkCurve& curve : network.curves) {
+    const size_t turns = turns_back(network, curve);
+    if (curve.vertices.size() < k_least || 4 * turns < curve.vertices.size()) continue;
+    return "the curve of line " + std::to_string(curve.line) + " turns back at " +
+           std::to_string(turns) + " of its " + std::to_string(curve.vertices.size()) +
+           " samples: are they points in no order, or several curves? A column \"curve\" or blank "
+           "lines part curves, a file .xyz holds points\n";
+  }
+  return "";
+}
+
 // What tells that patches may not be those that the curves were drawn for.
 static std::string doubts(const wsk_report& report) {
   constexpr double k_much = 50.0;  // degrees; bends between curves far apart reach 40
@@ -130,6 +158,7 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
             " no other: --snap LENGTH joins what misses by less\n";
   }
   text += doubts(result.report);
+  text += zigzag_line(network);
   text += spacing_line(surface, result.report);
   if (!network.ignored_columns.empty()) {
     text +=

@@ -483,6 +483,28 @@ TEST_CASE("the summary: a spacing coarser than the curves, columns that were pas
   CHECK(run(folder, "sphere.net -o a.obj --method stanko").out.find("coarse") == std::string::npos);
 }
 
+TEST_CASE("the summary: points in no order are no curve") {
+  const ScratchFolder folder("command");
+  // On a unit sphere, each far from the one before.
+  std::string rows, circle;
+  for (int i = 0; i < 40; ++i) {
+    const double z = (i * 17 % 40 - 19.5) / 20.0, angle = 2.4 * (i * 17 % 40);
+    const double radius = std::sqrt(1.0 - z * z);
+    rows += std::to_string(radius * std::cos(angle)) + "," +
+            std::to_string(radius * std::sin(angle)) + "," + std::to_string(z) + "\n";
+    circle +=
+        std::to_string(std::cos(0.157 * i)) + "," + std::to_string(std::sin(0.157 * i)) + ",0\n";
+  }
+  write_file(folder / "cloud.csv", rows);
+  write_file(folder / "circle.csv", circle + circle.substr(0, circle.find('\n') + 1));
+  Run r = run(folder, "cloud.csv -o a.ply");
+  CHECK(r.status == 0);
+  CHECK(r.out.find("\nthe curve of line 1 turns back at ") != std::string::npos);
+  r = run(folder, "circle.csv -o a.ply");
+  CHECK(r.status == 0);
+  CHECK(r.out.find("turns back") == std::string::npos);
+}
+
 TEST_CASE("an output folder that is not there is found before the work") {
   const ScratchFolder folder("command");
   write_file(folder / "sphere.net", sphere_net(8));
