@@ -110,7 +110,8 @@ enum {
   WSK_ERROR_TOO_FEW_SAMPLES = 7,
   /* A coordinate or a normal is NaN. */
   WSK_ERROR_NOT_A_NUMBER = 8,
-  /* A coordinate or a normal is infinite, or the coordinates span more than a double can hold. */
+  /* A coordinate or a normal is infinite, or the coordinates span more than a double can hold, or
+     they lie more than 2^100 times what they span from the origin. */
   WSK_ERROR_INFINITE = 9,
   /* All samples of a curve are the same point. */
   WSK_ERROR_ZERO_LENGTH_CURVE = 10,

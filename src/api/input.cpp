@@ -1,5 +1,7 @@
 #include "api/input.h"
 
+#include "num/minmax.h"
+
 namespace wireskin::api {
 
 static bool has_nan(const Vec3& a) {
@@ -51,6 +53,15 @@ Status find_scale(Span<const Vec3> points, int* exponent) {
   double greatest = greatest_component(extent);
   if (greatest == 0.0) greatest = greatest_component(points[0]);
   *exponent = greatest > 0.0 ? binary_exponent(greatest) : 0;
+  // Products of several coordinates must not overflow; where they could, rounding has left nothing
+  // of the shape long since.
+  constexpr int k_most_exponent = 100;
+  const double farthest = larger(greatest_component(low), greatest_component(high));
+  if (farthest > 0.0 && binary_exponent(farthest) - *exponent > k_most_exponent) {
+    return fail(Code::infinite,
+                "the network lies more than 2^100 times its size from the origin: move it to the "
+                "origin");
+  }
   return {};
 }
 

@@ -42,11 +42,12 @@ double greatest_component(const Vec3& a);
 Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position);
 Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal);
 
-// The power of two that brings the extent of the points to one half up to one.
+// The power of two that brings the extent of the points to one half up to one. Fails where that is
+// infinite, and where the points lie more than 2^100 times as far out.
 Status find_scale(Span<const Vec3> points, int* exponent);
 
-// Far from the origin doubles are coarse, and what then fails does not look like it: the sentence of
-// such a status becomes one that says so. `spacing`: zero if it is not known yet.
+// Far from the origin doubles are coarse, and what then fails does not look like it: the sentence
+// of such a status becomes one that says so. `spacing`: zero if it is not known yet.
 Status explain_rounding(const Status& status, Span<const Vec3> positions, double spacing);
 
 }  // namespace wireskin::api

@@ -39,7 +39,9 @@ double arc_tangent(double y, double x) {
   constexpr SplitAngle k_half = {k_pi, 1.2246467991473532e-16};
   const double up = std::fabs(y), side = std::fabs(x);
   if (up == 0.0 && side == 0.0) return 0.0;
-  SplitAngle angle = arc_tangent_of_fraction(up <= side ? up / side : side / up);
+  const double fraction = up <= side ? up / side : side / up;
+  if (!(fraction <= 1.0)) return fraction;
+  SplitAngle angle = arc_tangent_of_fraction(fraction);
   if (up > side) angle = {k_quarter.high - angle.high, k_quarter.low - angle.low};
   if (x < 0.0) angle = {k_half.high - angle.high, k_half.low - angle.low};
   const double sum = angle.high + angle.low;

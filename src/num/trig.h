@@ -13,7 +13,8 @@ namespace wireskin {
 inline constexpr double k_pi = 3.14159265358979323846;
 
 // The angle of the vector (x, y) against the x axis, in radians, in [0, pi] for y >= 0. For y < 0
-// the result is negative. atan2(0, 0) is 0.
+// the result is negative. (0, 0) has the angle 0, one that is not a number, or infinite in both
+// directions, has none: NaN.
 double arc_tangent(double y, double x);
 
 // The angle between two vectors in radians, 0 to pi, accurate for small and for straight angles.

@@ -241,6 +241,26 @@ TEST_CASE("what fails because the network lies too far from the origin says so")
   CHECK(failed >= 1);
 }
 
+TEST_CASE("so far from the origin that products would overflow") {
+  // All in the plane x = offset, so that nothing is rounded away in the other directions.
+  for (const double offset : {1e40, 1e230, -1e300}) {
+    CAPTURE(offset);
+    Scene scene = line_through({offset, 0, 0, offset, 1, 0, offset, 1, 1, offset, 0, 1}, true);
+    scene.curves[0].boundary = true;
+    for (size_t i = 0; i < 12; ++i) scene.curves[0].normals[i] = i % 3 == 0 ? 1.0 : 0.0;
+    const std::vector<wsk_curve> curves = curves_of(scene);
+    wsk_report report;
+    wsk_report_init(&report, sizeof report);
+    wsk_surface* surface = nullptr;
+    CHECK(wsk_build(curves.data(), 1, nullptr, &surface, &report) == WSK_ERROR_INFINITE);
+    CHECK(std::string(report.sentence).find("move it to the origin") != std::string::npos);
+    wsk_network* network = nullptr;
+    CHECK(wsk_connect(curves.data(), 1, nullptr, &network, &report) == WSK_ERROR_INFINITE);
+    wsk_flow* flow = nullptr;
+    CHECK(wsk_flow_build(curves.data(), 1, nullptr, nullptr, &flow, &report) == WSK_ERROR_INFINITE);
+  }
+}
+
 TEST_CASE("a normal along a curve of its node") {
   const Call call = network_with([](Scene& scene) {
     // The node +x: circle 0 runs along y there, circle 2 along z.

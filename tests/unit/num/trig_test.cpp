@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "support/context.h"
 
@@ -53,6 +54,17 @@ TEST_CASE("trig: tiny and huge ratios") {
     CHECK(relative_error(-1, -tiny) <= 5e-16);
     CHECK(relative_error(1 / tiny, tiny) <= 5e-16);
   }
+}
+
+TEST_CASE("trig: what has no direction has no angle") {
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  for (const double y : {nan, inf, -inf}) {
+    for (const double x : {nan, inf, -inf}) CHECK(std::isnan(arc_tangent(y, x)));
+  }
+  CHECK(std::isnan(arc_tangent(nan, 1.0)));
+  CHECK(std::isnan(arc_tangent(1.0, nan)));
+  CHECK(arc_tangent(inf, 1.0) == 0.5 * k_pi);
+  CHECK(arc_tangent(1.0, -inf) == k_pi);
 }
 
 TEST_CASE("trig: odd in y, and never beyond half a turn") {
