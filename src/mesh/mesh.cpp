@@ -36,12 +36,10 @@ Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uin
   TRY(corner->resize(triangles.size()));
   for (uint32_t v : triangles) ++(*start)[v];
   starts_from_counts(start->span());
-  // Filling moves each start to the next vertex's; shift them back afterwards.
   for (size_t h = 0; h < triangles.size(); ++h) {
     (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h);
   }
-  for (size_t v = vertices; v > 0; --v) (*start)[v] = (*start)[v - 1];
-  (*start)[0] = 0;
+  shift_starts_back(start->span());
   return {};
 }
 

@@ -1,7 +1,5 @@
 #include "mesh/operators.h"
 
-#include "base/sort.h"
-
 namespace wireskin::mesh {
 
 // From the dot products of the edge vectors at each corner and twice the area.
@@ -84,17 +82,6 @@ static void add_to_column(uint32_t v, uint32_t row, double value, ColumnUnderWay
   column->sum[row] = before[fresh] + value;
 }
 
-static Status close_column(const ColumnUnderWay& column, sparse::Csc* matrix) {
-  const size_t first = matrix->row.size();
-  TRY(matrix->row.resize(first + column.count));
-  TRY(matrix->value.resize(first + column.count));
-  uint32_t* const row = matrix->row.data() + first;
-  double* const value = matrix->value.data() + first;
-  sort_distinct(column.row.data(), column.count, row);
-  for (uint32_t k = 0; k < column.count; ++k) value[k] = column.sum[row[k]];
-  return {};
-}
-
 Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
                            Span<const TriangleShape> shapes, sparse::Csc* laplacian) {
   Context& context = laplacian->start.context();
@@ -138,7 +125,8 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
       diagonal += -to_next - to_previous;
     }
     column.sum[v] = diagonal;
-    TRY(close_column(column, laplacian));
+    TRY(sparse::append_column(column.row.span().part(0, column.count), column.sum.span(),
+                              laplacian));
     if (v % 16384 == 16383) TRY(context.checkpoint());
   }
   laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());

@@ -76,8 +76,7 @@ static Status list_inner_edges(const DisplaceInput& input, InnerEdges* edges) {
   for (uint32_t v : ends) ++edges->start[v];
   starts_from_counts(edges->start.span());
   for (uint32_t i = 0; i < ends.size(); ++i) edges->other[edges->start[ends[i]]++] = ends[i ^ 1u];
-  for (size_t v = edges->start.size() - 1; v > 0; --v) edges->start[v] = edges->start[v - 1];
-  edges->start[0] = 0;
+  shift_starts_back(edges->start.span());
   return {};
 }
 

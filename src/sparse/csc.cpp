@@ -1,5 +1,7 @@
 #include "sparse/csc.h"
 
+#include "base/sort.h"
+
 namespace wireskin::sparse {
 
 bool is_lower_triangle(const Csc& a) {
@@ -32,6 +34,18 @@ void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, 
       }
     }
   }
+}
+
+Status append_column(Span<const uint32_t> rows, Span<const double> sum, Csc* matrix) {
+  const size_t first = matrix->row.size();
+  const uint32_t count = static_cast<uint32_t>(rows.size());
+  TRY(matrix->row.resize(first + count));
+  TRY(matrix->value.resize(first + count));
+  uint32_t* const row = matrix->row.data() + first;
+  double* const value = matrix->value.data() + first;
+  sort_distinct(rows.data(), count, row);
+  for (uint32_t k = 0; k < count; ++k) value[k] = sum[row[k]];
+  return {};
 }
 
 Status transpose(const Csc& a, Csc* result) {

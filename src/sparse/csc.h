@@ -28,6 +28,11 @@ bool is_lower_triangle(const Csc& a);
 // summed in the same order whatever `columns` is.
 void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns);
 
+// Appends a column's entries to the rows and values of a matrix that is being gathered: `rows`,
+// distinct and in any order, and of each its value in `sum`, which has an entry for every row of
+// the matrix.
+Status append_column(Span<const uint32_t> rows, Span<const double> sum, Csc* matrix);
+
 // *result = the transpose of `a`.
 Status transpose(const Csc& a, Csc* result);
 

@@ -1,7 +1,5 @@
 #include "sparse/product.h"
 
-#include "base/sort.h"
-
 namespace wireskin::sparse {
 
 namespace {
@@ -93,17 +91,6 @@ static Status make_room(size_t more, size_t* room, Csc* product) {
   return product->value.reserve(*room);
 }
 
-static Status append_column(const Accumulator& gathered, Csc* product) {
-  const size_t first = product->row.size();
-  TRY(product->row.resize(first + gathered.count));
-  TRY(product->value.resize(first + gathered.count));
-  uint32_t* const row = product->row.data() + first;
-  double* const value = product->value.data() + first;
-  sort_distinct(gathered.rows.data(), gathered.count, row);
-  for (uint32_t k = 0; k < gathered.count; ++k) value[k] = gathered.sum[row[k]];
-  return {};
-}
-
 Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
                         Span<const uint32_t> unknown, uint32_t unknowns, Part part, Csc* product) {
   Context& context = product->start.context();
@@ -125,7 +112,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
     gather_column(factors, column, j, &gathered, &work);
     TRY(make_room(gathered.count, &room, product));
     product->start[j++] = static_cast<uint32_t>(product->row.size());
-    TRY(append_column(gathered, product));
+    TRY(append_column(gathered.rows.span().part(0, gathered.count), gathered.sum.span(), product));
     TRY(pause_for_checkpoint(context, &work));
   }
   product->start[unknowns] = static_cast<uint32_t>(product->row.size());

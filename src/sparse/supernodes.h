@@ -1,14 +1,12 @@
 // The structure of a sparse Cholesky factor as supernodes: runs of columns that share one list of
 // rows and are stored as one dense panel.
 //
-// In: a permuted pattern in postorder, its elimination tree and column counts. Besides the columns
-// that share their rows exactly, a supernode takes in its last child where that stores few zeros,
-// or where both are so narrow that longer panels pay for them. Invariants: the rows of supernode s
-// are ascending and begin with its own columns, first[s] .. first[s + 1]; its panel of values
-// begins at panel[s], a trapezoid (dense.h) with as many rows as round_up_rows() says, and a margin
-// behind the last. A panel's values above the diagonal and in the padding mean nothing.
-// Cost: linear in the entries and the rows listed.
-//
+// In: a permuted pattern in postorder, its elimination tree and column counts. Besides columns that
+// share their rows exactly, a supernode takes in its last child where that stores few zeros, or
+// where both are so narrow that longer panels pay for them. Invariants: the rows of supernode s
+// ascend and begin with its own columns, first[s] .. first[s + 1]; its panel of values begins at
+// panel[s], a trapezoid (dense.h) of round_up_rows() rows, and a margin behind the last. A panel's
+// values above the diagonal and in the padding mean nothing. Cost: linear in entries and rows.
 // Source: Cleve Ashcraft, Roger Grimes, "The Influence of Relaxed Supernode Partitions on the
 // Multifrontal Method", 1989.
 #pragma once

@@ -2,16 +2,13 @@
 //       [--scene grid] [--write PREFIX]
 //       [--matrices PREFIX,PREFIX...] [--which K] [--rig FOLDER] [--peers super-amd,eigen-ldlt]
 //
-// Times the library: the whole of wsk_build with its stages on a network of about so many vertices
-// (`grid`: five and five curves on a warped square, 16 patches, as in the rig; `ellipsoid`: three
-// curves, 8 patches), and, given matrices of the peers' rig, the solver beside the rig's programs,
-// which it runs in turn, on one thread each. --write makes such a matrix of each size, of the
-// bilaplacian on the finished surface, as PREFIX.SIZE.K.csc with its .xy.vec and .patch.vec. Prints
-// tables of medians and ratios and writes them as JSON. Times are processor time of this process in
-// milliseconds; with --threads, of the wall clock.
-//
-// OpenBLAS falls back to kernels for SSE3 on processors younger than itself, which makes CHOLMOD a
-// third slower and the ratios too good: see OPENBLAS_VERBOSE=2, and set OPENBLAS_CORETYPE.
+// Times wsk_build and its stages on a network of about so many vertices (`grid`: five and five
+// curves on a warped square, 16 patches; `ellipsoid`: three, 8 patches) and, given matrices of the
+// peers' rig, the solver beside the rig's programs in turn, on one thread each. --write makes such a
+// matrix of each size, of the bilaplacian on the surface: PREFIX.SIZE.K.csc, .xy.vec, .patch.vec.
+// Prints medians and ratios, writes them as JSON. Times are processor time in milliseconds; with
+// --threads, of the wall clock. OpenBLAS takes kernels for SSE3 on processors younger than itself,
+// which makes ratios too good: see OPENBLAS_VERBOSE=2, and set OPENBLAS_CORETYPE.
 #include <time.h>
 
 #include <algorithm>

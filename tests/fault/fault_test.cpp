@@ -2,14 +2,15 @@
 // status, leaves its outputs alone, gives everything back, and the same call works afterwards.
 //
 // Scenes of two calls (raw curves, sensors, flow) are swept through both. Which places are tried
-// says support/fault_places.h.
+// says support/fault_places.h; where that is all of them, copies of the process go on from each.
 #include <doctest/doctest.h>
 
-#include <algorithm>
+#include <cstdio>
 
 #include "support/faulty_allocator.h"
 #include "support/scenes.h"
 
+using scenes::Copies;
 using scenes::FaultPlace;
 using scenes::FaultPlaces;
 using scenes::FaultyAllocator;
@@ -19,10 +20,15 @@ struct Cancel {
   size_t calls = 0;
   size_t at = SIZE_MAX;
   std::vector<uint64_t>* places = nullptr;  // as in FaultyAllocator
+  Copies* copies = nullptr;                 // as there
 
   static int32_t ask(void* user) {
     Cancel& self = *static_cast<Cancel*>(user);
     if (self.places != nullptr) self.places->push_back(scenes::running_calls());
+    if (self.copies != nullptr && !self.copies->is_copy) {
+      self.copies->make();
+      if (self.copies->is_copy) self.at = self.calls;
+    }
     return self.calls++ == self.at;
   }
 };
@@ -35,6 +41,14 @@ struct Run {
   uint64_t hash = 0;  // of the result, where there is one
 
   wsk_status operator()(const Scene& scene) {
+    const char* wrong = nullptr;
+    const wsk_status status = attempt(scene, &wrong);
+    CHECK(wrong == nullptr);
+    return status;
+  }
+
+  // As above, but leaves it to the caller to complain.
+  wsk_status attempt(const Scene& scene, const char** wrong) {
     wsk_options options = scenes::options_of(scene);
     allocator.install(&options);
     options.memory_cap = memory_cap;
@@ -47,12 +61,13 @@ struct Run {
     if (status == WSK_OK) {
       hash = scenes::hash_of(scenes::copy_of(surface));
       wsk_surface_free(surface);
-    } else {
-      CHECK(surface == sentinel);
-      CHECK(report.sentence[0] != '\0');
+    } else if (surface != sentinel) {
+      *wrong = "the output was touched";
+    } else if (report.sentence[0] == '\0') {
+      *wrong = "no sentence";
     }
-    CHECK(report.status == status);
-    CHECK(allocator.clean());
+    if (report.status != status) *wrong = "another status in the report";
+    if (!allocator.clean()) *wrong = "not all memory came back";
     return status;
   }
 };
@@ -64,7 +79,54 @@ static void fail_allocation(const Scene& scene, size_t which, bool from_then) {
   CHECK(run(scene) == WSK_ERROR_OUT_OF_MEMORY);
 }
 
+// The end of a copy: was the failure met as it should be, and, now and then, does the call succeed
+// afterwards with the bits that it has without failures?
+[[noreturn]] static void end_copy(const Scene& scene, Run* run, uint64_t hash, const char* wrong) {
+  const bool cancelled = run->cancel.at != SIZE_MAX;
+  const size_t place = cancelled ? run->cancel.at : run->allocator.fail_at;
+  const bool more = !cancelled && run->allocator.calls > place + 1;
+  const wsk_status expected = cancelled ? WSK_ERROR_CANCELLED : WSK_ERROR_OUT_OF_MEMORY;
+  if (run->report.status != expected) wrong = "another status";
+  if (cancelled && run->cancel.calls != place + 1) wrong = "asked again after the answer";
+  if (place % 8 == 0 && wrong == nullptr) {
+    Run again;
+    if (again.attempt(scene, &wrong) != WSK_OK || again.hash != hash) wrong = "no second try";
+  }
+  if (wrong != nullptr) {
+    std::printf("%s, place %zu: %s\n", scene.name.c_str(), place, wrong);
+    std::fflush(stdout);
+  }
+  Copies::end(wrong != nullptr ? Copies::k_wrong
+              : more           ? Copies::k_fine_after_more
+                               : Copies::k_fine);
+}
+
+// Fails at every place of one run of the scene, in copies of the process: allocations, or
+// checkpoints.
+static void fail_everywhere(const Scene& scene, bool checkpoints) {
+  CAPTURE(scene.name);
+  Run whole;
+  REQUIRE(whole(scene) == WSK_OK);
+  Copies copies;
+  Run run;
+  (checkpoints ? run.cancel.copies : run.allocator.copies) = &copies;
+  const char* wrong = nullptr;
+  const wsk_status status = run.attempt(scene, &wrong);
+  if (copies.is_copy) end_copy(scene, &run, whole.hash, wrong);
+  CHECK(wrong == nullptr);
+  CHECK(status == WSK_OK);
+  CHECK(run.hash == whole.hash);
+  CHECK(copies.made >= (checkpoints ? whole.cancel.calls : whole.allocator.calls));
+  CHECK(copies.wrong == 0);
+}
+
+TEST_CASE("every allocation may fail, at all places") {
+  if (!scenes::copies_at_all_places()) return;
+  for (const Scene& scene : scenes::all()) fail_everywhere(scene, false);
+}
+
 TEST_CASE("every allocation may fail") {
+  if (scenes::copies_at_all_places()) return;  // the case above
   FaultPlaces places(10);
   for (const Scene& scene : scenes::all()) {
     CAPTURE(scene.name);
@@ -138,7 +200,13 @@ TEST_CASE("the memory cap holds to the byte") {
   }
 }
 
+TEST_CASE("every checkpoint may cancel, at all places") {
+  if (!scenes::copies_at_all_places()) return;
+  for (const Scene& scene : scenes::all()) fail_everywhere(scene, true);
+}
+
 TEST_CASE("every checkpoint may cancel") {
+  if (scenes::copies_at_all_places()) return;  // the case above
   FaultPlaces places(10);
   for (const Scene& scene : scenes::all()) {
     CAPTURE(scene.name);

@@ -9,6 +9,8 @@
 #include <set>
 #include <vector>
 
+#include "support/copies.h"
+
 #if __has_include(<execinfo.h>)
 #include <execinfo.h>
 #define SCENES_HAS_BACKTRACE 1
@@ -31,6 +33,11 @@ inline uint64_t running_calls() {
 
 inline bool tries_all_places() {
   return std::getenv("WIRESKIN_FULL") != nullptr;
+}
+
+// Whether all places are tried, and by copies of the process.
+inline bool copies_at_all_places() {
+  return tries_all_places() && can_copy();
 }
 
 struct FaultPlace {

@@ -26,6 +26,7 @@ struct FaultyAllocator {
   size_t peak_bytes = 0;
   std::vector<uint64_t>* places = nullptr;  // where given: running_calls() of each allocation
   bool wrong_release = false;               // a size that was not the one asked for, or a null
+  Copies* copies = nullptr;  // where given: each allocation fails in copies of the process
 
   void install(wsk_options* options) {
     options->allocate = allocate;
@@ -38,6 +39,7 @@ struct FaultyAllocator {
     FaultyAllocator& self = *static_cast<FaultyAllocator*>(user);
     const size_t call = self.calls++;
     if (self.places != nullptr) self.places->push_back(running_calls());
+    if (self.copies != nullptr && !self.copies->is_copy) self.fail_in_copies(call);
     if (call == self.fail_at || (self.fail_from_then && call > self.fail_at)) return nullptr;
     char* block = static_cast<char*>(std::malloc(bytes + k_header));
     if (block == nullptr) return nullptr;
@@ -65,6 +67,19 @@ struct FaultyAllocator {
   }
 
  private:
+  // Once in one copy; and in another from then on, unless the first asked for nothing more.
+  void fail_in_copies(size_t call) {
+    for (const bool from_then : {false, true}) {
+      const int said = copies->make();
+      if (copies->is_copy) {
+        fail_at = call;
+        fail_from_then = from_then;
+        return;
+      }
+      if (said != Copies::k_fine_after_more) return;
+    }
+  }
+
   void fill(char* memory, size_t bytes) {
     if (pattern != k_small_numbers) {
       std::memset(memory, pattern, bytes);

@@ -125,3 +125,19 @@ TEST_CASE("starts_from_counts: prefix sums with the total last") {
   CHECK(wireskin::starts_from_counts(span(only_end)) == 0);
   CHECK(only_end[0] == 0);
 }
+
+TEST_CASE("shift_starts_back: groups that were filled by moving their starts have them again") {
+  const std::vector<uint32_t> key = {2, 0, 2, 3, 0, 2};  // group 1 is empty
+  std::vector<uint32_t> start(5, 0), item(key.size());
+  for (uint32_t k : key) ++start[k];
+  wireskin::starts_from_counts(span(start));
+  for (uint32_t i = 0; i < key.size(); ++i) item[start[key[i]]++] = i;
+  wireskin::shift_starts_back(span(start));
+  CHECK(start == std::vector<uint32_t>{0, 2, 2, 5, 6});
+  CHECK(item == std::vector<uint32_t>{1, 4, 0, 2, 5, 3});
+  std::vector<uint32_t> none;
+  wireskin::shift_starts_back(span(none));
+  std::vector<uint32_t> only_end = {7};
+  wireskin::shift_starts_back(span(only_end));
+  CHECK(only_end[0] == 0);
+}

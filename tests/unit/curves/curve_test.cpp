@@ -187,8 +187,8 @@ TEST_CASE("curve: nodes at the same point are kept apart") {
   }
 }
 
-// ../real.md of the method: edge crossings of a mesh come with a spacing that varies 300-fold, and
-// a spline through all of them turns measured normals far from the surface's.
+// Edge crossings of a mesh come with a spacing that varies 300-fold, and a spline through all of
+// them turns measured normals far from the surface's.
 TEST_CASE("curve: a ratio of spacings of 300 does not swing the normals") {
   Random random(6);
   std::vector<double> angles;

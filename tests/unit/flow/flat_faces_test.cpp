@@ -108,6 +108,7 @@ TEST_CASE("round caps of a cylinder are discs, its side is no plane") {
   const Faces cylinder(net);
   REQUIRE(cylinder.faces.size() == 2);
   CHECK(cylinder.faces.polygon[0] + cylinder.faces.polygon[1] == 0);
+  CHECK(cylinder.whole_area() == doctest::Approx(6.283185307179586).epsilon(0.01));
 }
 
 TEST_CASE("what another curve goes through is no face") {

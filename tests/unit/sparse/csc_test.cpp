@@ -120,3 +120,25 @@ TEST_CASE("csc: both triangles of the permuted pattern list every entry once") {
     CHECK(std::count(seen.begin(), seen.end(), 1) == static_cast<ptrdiff_t>(seen.size()));
   }
 }
+
+TEST_CASE("csc: an appended column has its rows ascending, each with its own value") {
+  Heap heap;
+  Csc matrix(heap.context);
+  const std::vector<double> sum = {0.5, 1.5, 2.5, 3.5, 4.5};
+  const std::vector<uint32_t> first = {4, 0, 3}, second = {2};
+  must(append_column(span(first), span(sum), &matrix));
+  must(append_column({}, span(sum), &matrix));
+  must(append_column(span(second), span(sum), &matrix));
+  CHECK(unit::to_vector(matrix.row) == std::vector<uint32_t>{0, 3, 4, 2});
+  CHECK(unit::to_vector(matrix.value) == std::vector<double>{0.5, 3.5, 4.5, 2.5});
+
+  std::vector<double> many_sums(500);
+  std::vector<uint32_t> many;
+  for (uint32_t i = 0; i < 500; ++i) many_sums[i] = i, many.push_back(i * 7 % 500);
+  must(append_column(span(many), span(many_sums), &matrix));
+  REQUIRE(matrix.row.size() == 504);
+  for (uint32_t i = 0; i < 500; ++i) {
+    CHECK(matrix.row[4 + i] == i);
+    CHECK(matrix.value[4 + i] == i);
+  }
+}
