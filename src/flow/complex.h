@@ -77,6 +77,11 @@ struct Complex {
 
   // F, infinite for the outside.
   double tet_value_of(uint32_t t) const;
+  // The tetrahedron on one side of a triangle, or their number for the outside.
+  uint32_t side_of(uint32_t t, uint32_t side) const {
+    const uint32_t at = triangle_side[2 * size_t{t} + side];
+    return at == k_none ? tet_count() : at;
+  }
   Span<const uint32_t> triangles_of(uint32_t e) const {
     return edge_triangle.span().part(edge_triangle_first[e],
                                      edge_triangle_first[e + 1] - edge_triangle_first[e]);

@@ -76,11 +76,6 @@ struct CurveFault {
 
 }  // namespace
 
-static uint32_t cell_side(const Complex& complex, uint32_t triangle, uint32_t side) {
-  const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
-  return t == k_none ? complex.tet_count() : t;
-}
-
 static Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const Vec3& a = complex.point[v[0]];
@@ -117,7 +112,7 @@ static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces
     if (faces.part[t] == FlatPart::polygon || faces.part[t] == FlatPart::line) {
       TRY(separating.push(t));
     } else {
-      forest->join(cell_side(complex, t, 0), cell_side(complex, t, 1));
+      forest->join(complex.side_of(t, 0), complex.side_of(t, 1));
     }
   }
   sort(separating.span(), [&](uint32_t a, uint32_t b) {
@@ -125,8 +120,8 @@ static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces
     return fa != fb ? fa > fb : a > b;
   });
   for (const uint32_t t : separating) {
-    const uint32_t a = forest->root_of(cell_side(complex, t, 0));
-    const uint32_t b = forest->root_of(cell_side(complex, t, 1));
+    const uint32_t a = forest->root_of(complex.side_of(t, 0));
+    const uint32_t b = forest->root_of(complex.side_of(t, 1));
     if (forest->solid[a] == 0 || forest->solid[b] == 0) forest->join(a, b);
   }
   return {};
@@ -145,8 +140,8 @@ static Status find_face_sides(const Complex& complex, const FlatFaces& faces, Me
     if (faces.polygon[f] == 0) continue;
     for (uint32_t i = faces.start[f]; i < faces.start[f + 1]; ++i) {
       const uint32_t t = faces.triangle[i];
-      const uint32_t a = forest.root_of(cell_side(complex, t, 0));
-      const uint32_t b = forest.root_of(cell_side(complex, t, 1));
+      const uint32_t a = forest.root_of(complex.side_of(t, 0));
+      const uint32_t b = forest.root_of(complex.side_of(t, 1));
       const Vec3 n = cross_of_triangle(complex, t);
       if (a == b || !(dot(n, n) > largest)) continue;
       largest = dot(n, n);
@@ -326,8 +321,8 @@ static Status set_turns(const Complex& complex, const FlatFaces& faces, Merging*
   // Whatever parts two cells now, lines along curves among it.
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (faces.part[t] == FlatPart::none || faces.part[t] == FlatPart::disc) continue;
-    const uint32_t a = merging->forest.root_of(cell_side(complex, t, 0));
-    const uint32_t b = merging->forest.root_of(cell_side(complex, t, 1));
+    const uint32_t a = merging->forest.root_of(complex.side_of(t, 0));
+    const uint32_t b = merging->forest.root_of(complex.side_of(t, 1));
     if (a != b) (*turn)[t] = Pass::last;
   }
   return {};

@@ -140,12 +140,8 @@ struct TailSearch {
 // to the curve that they should meet at.
 static bool is_flat_tail(const Complex& complex, const TailSearch& search, uint32_t t) {
   if (search.cells.turn.empty() || search.cells.turn[t] != Pass::late) return false;
-  uint32_t label[2];
-  for (uint32_t k = 0; k < 2; ++k) {
-    const uint32_t side = complex.triangle_side[2 * size_t{t} + k];
-    label[k] = search.topology.label[side == k_none ? complex.tet_count() : side];
-  }
-  return label[0] == label[1];
+  const Array<uint32_t>& label = search.topology.label;
+  return label[complex.side_of(t, 0)] == label[complex.side_of(t, 1)];
 }
 
 // The ear in the walls at a chord of the border, or the tail at an edge where sheets merge.

@@ -115,10 +115,8 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
   for (size_t i = 0; i < order.size(); ++i) {
     if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
     const uint32_t t = order[i];
-    const uint32_t a = complex.triangle_side[2 * t];
-    const uint32_t b = complex.triangle_side[2 * t + 1];
-    uint32_t low = voids.root_of(a == k_none ? outside : a);
-    uint32_t high = voids.root_of(b == k_none ? outside : b);
+    uint32_t low = voids.root_of(complex.side_of(t, 0));
+    uint32_t high = voids.root_of(complex.side_of(t, 1));
     if (low == high) continue;
     if (lower_maximum(complex, voids.maximum[high], voids.maximum[low])) swap_values(low, high);
     persistence->creator[t] = 1;

@@ -1,16 +1,13 @@
-// One mesh of all patches, each remeshed to the wished spacing with its rim fixed, and still free
-// of crossings.
+// One mesh of all patches, each remeshed to the wished spacing, its rim fixed, free of crossings.
 //
 // In: a reconstruction. Out: vertices, first all samples, then inner ones; triangles with their
-// patches. Patches are cut at curves and wherever other than two triangles meet, refined by
-// mesh/loop_refine.h, and tested against each other exactly (crossings.h); patches that run into
-// each other take a smaller effort next time: no relaxation, at last no refinement, which is the
-// embedded complex itself; triangles of it that cross all the same, because curves all but touch,
-// get the complex's own, jittered points. Without spacing all patches are left as they are. Every
-// triangle of the walls occurs once, ears and tails in their first patch; but flat ones that
-// several sheets end at are left out, and each sheet goes on to the curve, unless that makes
-// triangles cross. Near-linear in the result. Source of the remeshing to fair patches: B. Sadri, K.
-// Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 5.
+// patches. Patches are cut at curves and at edges of other than two triangles, refined by
+// mesh/loop_refine.h, and tested exactly (crossings.h); those that run into each other take a
+// smaller effort next time: no relaxation, at last the embedded complex itself, and where curves
+// all but touch its own, jittered points. Without spacing all are left as they are. Every triangle
+// of the walls occurs once; but flat ears and tails that several sheets end at are left out, unless
+// that makes triangles cross. Near-linear in the result. Source: B. Sadri, K. Singh,
+// "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 5.
 #pragma once
 
 #include "flow/flow.h"

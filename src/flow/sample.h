@@ -1,19 +1,14 @@
-// Points on arcs, dense enough that nothing slips between them: the samples of which the flow
-// complex is made.
+// Points on arcs, dense enough that nothing slips between them: the samples of the flow complex.
 //
-// In: arcs and the greatest step. Out: the samples, those of each arc in order, with the place on
-// it. Invariants: samples lie on the polylines; every node and every isolated point is a sample bit
-// for bit, and no given point is farther than k_given_distance steps from the segments;
-// at a node all arcs begin with steps of the same length; steps are at most half the distance to
-// the nearest other arc (its directed Hausdorff distance) down to a floor, but for those beside a
-// sample that moved to a given point; every segment is Gabriel, that is, no sample lies in the ball
-// of which it is the diameter, but for those counted as too short: below k_least_segment, or below
-// the floor where another curve all but coincides with it. Curves side by side get samples side by
-// side, so their number does not grow with the narrowness of the gap; those within k_same_curve of
-// each other are one as to steps, and the same samples where they coincide. Near-linear where arcs
-// are not all near each other. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape
-// Reconstruction from 3D Curves", 2014, section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm",
-// 1995 (shells).
+// In: arcs and the greatest step. Out: samples on the polylines, in order along each arc. Every
+// node and isolated point is one, bit for bit; no given point is farther than k_given_distance
+// steps from the segments; at a node all arcs begin with equal steps; steps are at most half the
+// distance to the nearest other arc (directed Hausdorff) down to a floor, but at given points;
+// every segment is Gabriel (no sample in the ball on it) but for those counted as too short. Curves
+// side by side get samples side by side; within k_same_curve they count as one for steps, and share
+// samples where they coincide. Near-linear where arcs are not all near each other. Sources: B.
+// Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.1; J.
+// Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells).
 #pragma once
 
 #include "flow/arcs.h"

@@ -128,8 +128,7 @@ static double feasibility_of(const Complex& complex, const SampleTangents& tange
 
 static uint32_t room_at(const Complex& complex, const Cells& cells, uint32_t triangle,
                         uint32_t side) {
-  const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
-  return cells.room_of[t == k_none ? complex.tet_count() : t];
+  return cells.room_of[complex.side_of(triangle, side)];
 }
 
 // The classes of triangles under edges that are no curve and have two of them.

@@ -10,11 +10,6 @@ static constexpr double k_loose_share = 0.1;
 // Of a void that curves wait for: above the noise of rounding.
 static constexpr double k_least_wanted = 1.0005;
 
-static uint32_t side_of(const Complex& complex, uint32_t triangle, uint32_t side) {
-  const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
-  return t == k_none ? complex.tet_count() : t;
-}
-
 static uint32_t find_label(Span<uint32_t> label, uint32_t i) {
   while (label[i] != i) i = label[i] = label[label[i]];
   return i;
@@ -26,8 +21,8 @@ Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* 
   for (uint32_t i = 0; i <= outside; ++i) (*label)[i] = i;
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (sheet.in[t] != 0) continue;
-    const uint32_t a = find_label(label->span(), side_of(complex, t, 0));
-    const uint32_t b = find_label(label->span(), side_of(complex, t, 1));
+    const uint32_t a = find_label(label->span(), complex.side_of(t, 0));
+    const uint32_t b = find_label(label->span(), complex.side_of(t, 1));
     if (a < b) (*label)[b] = a;
     if (b < a) (*label)[a] = b;
   }
@@ -237,8 +232,8 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
 static bool may_go(const Complex& complex, const FlatCells& cells, const Topology3& topology,
                    uint32_t triangle) {
   if (!cells.turn.empty() && cells.turn[triangle] == Pass::late) return false;
-  return topology.label[side_of(complex, triangle, 0)] ==
-         topology.label[side_of(complex, triangle, 1)];
+  return topology.label[complex.side_of(triangle, 0)] ==
+         topology.label[complex.side_of(triangle, 1)];
 }
 
 // Opens handles: triangles with one void on both sides that are part of no fin.

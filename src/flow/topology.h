@@ -1,16 +1,13 @@
-// The topological reconstruction: which voids there are, and the walls between them, bounded by
-// curves.
+// The topological reconstruction: which voids there are, and the walls between them.
 //
-// In: the complex, its voids, the curves' edges. Out: the voids chosen, and the triangles that are
-// left after peeling, opening of handles and removal of walls that no curve bounds. Invariants: the
-// walls separate exactly the chosen voids and the outside from each other; no piece of curve that
-// had a triangle loses its last one. Method: destroyers and chosen creators, peeled from all edges
-// but the curves; a void counts only if its wall ends on curves that have use for it, which
-// triangulations of nearly round tubes feign; voids behind flat faces, and those that wait for one
-// more face, count whatever their ratio; then triangles with the same void on both sides go,
-// greatest radius first, as far as they are not fins. O(triangles) for a void tried, near-linear
-// else. Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014,
-// section 4.3 and figure 13.
+// In: the complex, its voids, the curves' edges. Out: the voids chosen, and the triangles left
+// after peeling, opening of handles and removal of walls that no curve bounds. Invariants: walls
+// separate exactly the chosen voids and the outside; no piece of curve that had a triangle loses
+// its last. A void counts if its wall ends on curves that have use for it (round tubes feign
+// others); those behind flat faces or waiting for one more whatever their ratio. Then triangles
+// with one void on both sides go, greatest radius first, unless they are fins. O(triangles) for a
+// void tried, near-linear else. Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape
+// Reconstruction from 3D Curves", 2014, section 4.3 and figure 13.
 #pragma once
 
 #include "flow/flat_cells.h"

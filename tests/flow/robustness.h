@@ -215,12 +215,11 @@ inline std::vector<Vec3> points_of(const Net& net, const std::vector<uint32_t>& 
   return points;
 }
 
-// Each curve taken away in turn, which is the same as putting it back.
-// The number of voids stays that of the whole network: else one void less may open all of it.
+// Each curve taken away in turn, which is the same as putting it back. The number of voids is found
+// anew each time, but where the shape's own is given.
 inline std::vector<Change> changes_by_removal(const Shape& shape) {
-  RunOptions options = {0.02, 0, shape.voids, false, false};
+  const RunOptions options = {0.02, 0, shape.voids, false, false};
   const Run whole = run(shape.net, options);
-  options.voids = int32_t(whole.chosen);
   std::vector<Change> changes;
   for (size_t c = 0; c < shape.net.curve.size(); ++c) {
     Net less = shape.net;
