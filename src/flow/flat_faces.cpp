@@ -11,6 +11,7 @@ static constexpr double k_beside = 1e-5;        // of the diagonal, from an edge
 static constexpr uint8_t k_most_visits = 4;
 // Of lines and samples looked at; who draws faces as dense as that gets none.
 static constexpr size_t k_most_work = size_t{1} << 26;
+static constexpr size_t k_work_per_checkpoint = size_t{1} << 17;
 
 namespace {
 
@@ -29,7 +30,7 @@ struct FaceFlood {
   PointGrid grid;
   Array<uint32_t> curved;
   Array<Crossed> crossed;
-  size_t work = 0;
+  size_t work = 0, next_checkpoint = k_work_per_checkpoint;
   Array<uint32_t> mark;               // of each triangle: the seed whose face it was last in
   Array<uint8_t> visits;              // of each triangle
   Array<uint32_t> member;             // the face
@@ -57,6 +58,11 @@ struct FaceFlood {
         next(context),
         seen(context),
         border_edge(context) {}
+  Status pause() {
+    if (work <= next_checkpoint) return {};
+    next_checkpoint = work + k_work_per_checkpoint;
+    return mark.context().checkpoint();
+  }
 };
 
 }  // namespace
@@ -258,9 +264,11 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     return flood->member.push(t);
   };
   TRY(add(seed));
-  for (size_t i = 0; i < flood->member.size(); ++i) {
+  for (size_t i = 0; i < flood->member.size() && flood->work <= k_most_work; ++i) {
+    TRY(flood->pause());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
+      ++flood->work;
       if (on_rim(complex, curves, lines, e)) continue;
       for (const uint32_t t : complex.triangles_of(e)) {
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
@@ -296,6 +304,7 @@ static Status close_face(const Complex& complex, const CurveEdges& curves,
     const uint32_t t = left.back();
     left.pop();
     ++flood->work;
+    TRY(flood->pause());
     if (flood->mark[t] != seed) continue;
     if (goes_on_all_round(complex, curves, lines, *flood, plane, seed, t)) continue;
     flood->mark[t] = k_none;
@@ -525,29 +534,23 @@ static Status forget_faces(FlatFaces* faces) {
   faces->rim_start.clear();
   faces->rim.clear();
   for (FlatPart& part : faces->part) part = FlatPart::none;
+  faces->given_up = true;
   return {};
 }
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
-  constexpr size_t k_work_per_checkpoint = 1u << 17;
   FaceFlood flood(context);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
   TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
-  size_t next_checkpoint = k_work_per_checkpoint;
   for (const uint32_t seed : seeds) {
     if (flood.visits[seed] != 0) continue;
     const Plane plane = plane_of(complex, seed);
     if (is_crossed(complex, lines, plane, seed, seed, &flood)) continue;
     TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
-    flood.work += flood.member.size();
     if (flood.work > k_most_work) return forget_faces(faces);
-    if (flood.work > next_checkpoint) {
-      TRY(context.checkpoint());
-      next_checkpoint = flood.work + k_work_per_checkpoint;
-    }
     TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
     TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
