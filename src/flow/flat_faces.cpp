@@ -156,6 +156,18 @@ static bool is_line(const Complex& complex, const CurveEdges& curves, const Stra
   return lines.common(v[0], v[1], v[2]) != k_none;
 }
 
+// Whether a piece of curve from p to q crosses one from a to b in their plane, away from its ends.
+static bool crosses_edge(const Plane& plane, const Vec3& a, const Vec3& b, double margin,
+                         const Vec3& p, const Vec3& q) {
+  const Vec3 along = unit(b - a);
+  const Vec3 across = cross(plane.normal, along);
+  const double at_p = dot(p - a, across), at_q = dot(q - a, across);
+  if (larger(at_p, at_q) < margin || smaller(at_p, at_q) > -margin) return false;
+  const double t = at_p / (at_p - at_q);
+  const double at = dot(p + t * (q - p) - a, along);
+  return at > margin && at < length(b - a) - margin;
+}
+
 // Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or
 // along its edges.
 static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, const Vec3& p,
@@ -177,12 +189,34 @@ static bool passes_through(const Complex& complex, const Plane& plane, uint32_t 
   return (to - from) * length(q - p) > margin;
 }
 
+// The longest edge of a triangle of samples that are in a row, but on no curve that they have in
+// common, or 3: it has no inside to pass through, yet may reach across curves.
+static uint32_t edge_of_sliver(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  double longest = 0.0;
+  uint32_t at = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const double size = length(complex.point[v[(k + 1) % 3]] - complex.point[v[k]]);
+    if (size > longest) at = k;
+    longest = larger(longest, size);
+  }
+  return twice_area(complex, t) > 4.0 * k_beside * complex.diagonal * longest ? 3 : at;
+}
+
+static bool reaches_across(const Complex& complex, const Plane& plane, uint32_t t, uint32_t sliver,
+                           const Vec3& p, const Vec3& q) {
+  if (sliver == 3) return passes_through(complex, plane, t, p, q);
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]],
+                      k_beside * complex.diagonal, p, q);
+}
+
 static bool near_plane(const Complex& complex, const Plane& plane, const Vec3& p) {
   return std::fabs(dot(p - plane.at, plane.normal)) <= k_flat * complex.diagonal;
 }
 
 static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_t seed, uint32_t t,
-                             FaceFlood* flood) {
+                             uint32_t sliver, FaceFlood* flood) {
   const Array<Vec3>& end = flood->line_end;
   if (flood->plane_line_of != seed) {
     flood->plane_line_of = seed;
@@ -196,7 +230,7 @@ static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_
   }
   flood->work += flood->plane_line.size();
   for (const uint32_t i : flood->plane_line) {
-    if (passes_through(complex, plane, t, end[i], end[i + 1])) return true;
+    if (reaches_across(complex, plane, t, sliver, end[i], end[i + 1])) return true;
   }
   return false;
 }
@@ -204,7 +238,7 @@ static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_
 // An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that
 // of which the segment is a diameter.
 static bool any_bend_crosses(const Complex& complex, const StraightLines& lines, const Plane& plane,
-                             uint32_t t, FaceFlood* flood) {
+                             uint32_t t, uint32_t sliver, FaceFlood* flood) {
   if (flood->curved.empty()) return false;
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
@@ -216,7 +250,7 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
     for (uint32_t k = flood->next_start[i]; k < flood->next_start[i + 1]; ++k) {
       const Vec3& q = complex.point[flood->next[k]];
       if (!near_plane(complex, plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
-      if (passes_through(complex, plane, t, complex.point[i], q)) return true;
+      if (reaches_across(complex, plane, t, sliver, complex.point[i], q)) return true;
     }
     return false;
   });
@@ -227,8 +261,9 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
 static bool is_crossed(const Complex& complex, const StraightLines& lines, const Plane& plane,
                        uint32_t seed, uint32_t t, FaceFlood* flood) {
   if (flood->crossed[t] == Crossed::unknown) {
-    const bool crossed = any_line_crosses(complex, plane, seed, t, flood) ||
-                         any_bend_crosses(complex, lines, plane, t, flood);
+    const uint32_t sliver = edge_of_sliver(complex, t);
+    const bool crossed = any_line_crosses(complex, plane, seed, t, sliver, flood) ||
+                         any_bend_crosses(complex, lines, plane, t, sliver, flood);
     flood->crossed[t] = crossed ? Crossed::yes : Crossed::no;
   }
   return flood->crossed[t] == Crossed::yes;

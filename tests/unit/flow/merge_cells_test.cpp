@@ -76,6 +76,7 @@ TEST_CASE("every hole of a plate becomes outside, and no face is left in it") {
     CHECK(plate.cell_count() == 2 + holes);
     plate.merge();
     CHECK(plate.cell_count() == 2);
+    CHECK(plate.count(FaceState::inner) == 2 * holes);
     CHECK(plate.count(FaceState::parting) == 6 + 4 * holes);
   }
 }
