@@ -760,7 +760,22 @@ typedef struct wsk_flow_options {
   /* Non-zero: patches keep the triangles between the samples instead of being remeshed to
      wsk_options.spacing (0: that of the sampling). */
   int32_t raw;
+
+  /* For wsk_flow_build again: WSK_LIDS_... */
+  int32_t lids;
 } wsk_flow_options;
+
+/* What becomes of round ends: discs that a curve with bends bounds, with curves that leave it to
+   one side only, as those of cans, cones and domes. Balls between the curves find one end of a tube
+   or none, and drawings do not tell a tube from a can. Polygons are always faces. */
+enum {
+  /* The default: a round end is closed if it is the only one of curves that hang together; of two
+     or more those are closed that the balls close. */
+  WSK_LIDS_SINGLE = 0,
+  WSK_LIDS_ALL = 1,  /* each is closed */
+  WSK_LIDS_NONE = 2, /* only those that the balls close */
+  WSK_LIDS_COUNT = 3
+};
 
 /* As wsk_options_init. */
 WSK_API void wsk_flow_options_init(wsk_flow_options* options, size_t size);
@@ -857,6 +872,15 @@ typedef struct wsk_flow_view {
   /* Voids found worth enclosing, or as many as were asked for; fewer than that if the curves cage
      no more. betti[2] are those that the surface encloses in the end. */
   uint32_t caged_count;
+
+  double sampling; /* the greatest distance between samples that was used, in your units */
+  /* Non-zero: flat faces are so many and so dense that looking for them was given up, and all voids
+     are judged by their ratios. */
+  int32_t faces_skipped;
+  /* Of the last surface: voids of enough ratio beyond those that were looked at, which are the 200
+     of the greatest ratio and all that flat faces close. */
+  uint32_t untried_count;
+  uint32_t open_lid_count; /* likewise: round ends that are open; WSK_LIDS_ALL closes them */
 } wsk_flow_view;
 
 /* Samples the curves and finds the voids. Curves join where samples carry the same node number or
@@ -877,7 +901,8 @@ typedef struct wsk_flow_view {
  * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
  * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial and
  * find_borders change nothing, since no patch is ever left out. `options` and `flow_options` may be
- * null (defaults). On success *flow is to be given to wsk_flow_free; it keeps the allocator of the
+ * null (defaults). A spacing coarser than the sampling coarsens patches inside only: all samples
+ * are vertices. On success *flow is to be given to wsk_flow_free; it keeps the allocator of the
  * options, not the callbacks. */
 WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
                                   const wsk_options* options, const wsk_flow_options* flow_options,

@@ -95,6 +95,13 @@ int voids_of(const std::string& text) {
   return static_cast<int>(voids);
 }
 
+int lids_of(const std::string& name) {
+  if (name == "auto") return WSK_LIDS_SINGLE;
+  if (name == "all") return WSK_LIDS_ALL;
+  if (name == "none") return WSK_LIDS_NONE;
+  wrong_usage("--lids needs auto, all or none, not " + in_quotes(name));
+}
+
 // Splits "--name=value"; takes the value from the next word otherwise.
 class Words {
  public:
@@ -182,6 +189,8 @@ bool take_option(Words& words, Arguments& arguments) {
     arguments.voids = voids_of(words.value());
   } else if (words.is_flag("--open-walls")) {
     arguments.open_walls = true;
+  } else if (words.is("--lids")) {
+    arguments.lids = lids_of(words.value());
   } else if (words.is("--report")) {
     arguments.report = words.value();
   } else if (words.is("--image")) {
@@ -249,7 +258,7 @@ void check_files(const Arguments& arguments) {
 void check_topology(const Arguments& arguments) {
   const bool flow = arguments.topology == TopologyChoice::flow;
   if (arguments.topology == TopologyChoice::automatic) return;
-  for (const char* option : {"--voids", "--open-walls"}) {
+  for (const char* option : {"--voids", "--open-walls", "--lids"}) {
     if (flow || !has_option(arguments, option)) continue;
     wrong_usage(std::string(option) + " needs --topology flow");
   }

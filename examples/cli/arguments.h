@@ -38,6 +38,7 @@ struct Arguments {
   bool open_walls = false;
   bool partial = false;
   bool find_borders = false;
+  int lids = WSK_LIDS_SINGLE;
 };
 
 // `words` without the name of the command. With --help or --version the rest is not looked at.

@@ -144,6 +144,7 @@ static void build_from_flow(const std::vector<wsk_curve>& curves, const wsk_opti
   wsk_flow_options_init(&flow_options, sizeof flow_options);
   flow_options.voids = arguments.voids;
   flow_options.open_walls = arguments.open_walls ? 1 : 0;
+  flow_options.lids = arguments.lids;
   wsk_flow* made = nullptr;
   wsk_report first;
   wsk_report_init(&first, sizeof first);

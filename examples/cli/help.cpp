@@ -73,6 +73,9 @@ options (lengths are in the units of the input; "the diagonal" is that of its bo
                      surface where it is a manifold; without them it is left as remeshed
   --voids N          with flow: the number of voids to enclose, 0 to 1000000 (default: those that
                      stand out); fewer where the curves cage fewer
+  --lids auto|all|none
+                     with flow: close round ends of tubes: the only one (auto, the default), all, so
+                     that a tube is a can, or none beyond those that the curves cage
   --open-walls       with flow: keep walls that end at other walls instead of at curves
   --partial          with normals: leave out patches that cannot be made, instead of failing; the
                      report lists them

@@ -181,6 +181,10 @@ std::string flow_json(const FlowSummary& flow) {
   object.member("normals_sentence",
                 view.normals_sentence[0] == 0 ? "null" : json_string(view.normals_sentence));
   object.count("caged_voids", view.caged_count);
+  object.number("sampling", view.sampling);
+  object.count("open_lids", view.open_lid_count);
+  object.member("flat_faces_skipped", view.faces_skipped != 0 ? "true" : "false");
+  object.count("untried_voids", view.untried_count);
   object.member("voids", voids_json(flow));
   uint32_t between = 0;  // a wall between two voids makes its curves bound more than two patches
   for (const wsk_flow_patch& p : flow.patches) {

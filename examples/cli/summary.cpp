@@ -36,6 +36,7 @@ std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& 
   const char* by_flow = "the curves alone gave the patches";
   check("--voids", !flow, by_normals);
   check("--open-walls", !flow, by_normals);
+  check("--lids", !flow, by_normals);
   check("--soft", flow && arguments.soft > 0.0, by_flow);
   check("--partial", flow, by_flow);
   check("--find-borders", flow, by_flow);
@@ -47,6 +48,30 @@ std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& 
   check("--format", std::count(arguments.outputs.begin(), arguments.outputs.end(), "-") == 0,
         "it is for -o -");
   return idle;
+}
+
+// What was left to itself, or not looked at.
+static std::string flow_notes(const wsk_flow_view& view, double spacing) {
+  std::string text;
+  if (view.open_lid_count > 0) {
+    text += counted(view.open_lid_count, "round end", "round ends") +
+            " left open, as of a tube; --lids all closes each\n";
+  }
+  if (view.faces_skipped != 0) {
+    text += "flat faces are too many to be told apart: voids are judged by their ratios alone\n";
+  }
+  if (view.untried_count > 0) {
+    text += counted(view.untried_count, "void was", "voids were") +
+            " not looked at, 200 of greater ratio were\n";
+  }
+  if (spacing > 1.5 * view.sampling) {
+    char sampling[32];
+    std::snprintf(sampling, sizeof sampling, "%.3g", view.sampling);
+    text +=
+        "vertices on the curves are closer than the spacing: no farther apart than the samples, " +
+        std::string(sampling) + "\n";
+  }
+  return text;
 }
 
 static std::string flow_lines(const wsk_flow_view& view, int voids_asked) {
@@ -152,6 +177,7 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
             std::to_string(result.report.first_inverted_patch) + "\n";
   }
   if (result.flow != nullptr) text += flow_lines(result.flow->view, arguments.voids);
+  if (result.flow != nullptr) text += flow_notes(result.flow->view, arguments.spacing);
   const uint32_t loose = result.flow != nullptr ? result.prepared_view().after.dangling_ends : 0;
   if (loose > 0) {
     text += counted(loose, "end of a curve meets", "ends of curves meet") +

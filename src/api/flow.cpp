@@ -67,6 +67,9 @@ static Status read_flow_options(const wsk_flow_options* given, wsk_flow_options*
   if (!finite_and_not_negative(options->thickness)) {
     return fail(Code::bad_argument, "the thickness is negative or not finite");
   }
+  if (options->lids < 0 || options->lids >= WSK_LIDS_COUNT) {
+    return fail(Code::bad_argument, "the lids are none of WSK_LIDS_...");
+  }
   return {};
 }
 
@@ -191,6 +194,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   if (flow_options.most_tetrahedra > 0) inside.complex.most_tets = flow_options.most_tetrahedra;
   inside.complex.seed = flow_options.seed;
   inside.bend = !made->normal.empty();
+  inside.lids = static_cast<flow::Lids>(flow_options.lids);
   const flow::Polylines polylines = {input.start.span(), input.position.span(), input.number.span(),
                                      input.closed.span()};
   TRY(made->given.copy(input.position.span()));
@@ -209,6 +213,8 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   view.void_count = static_cast<uint32_t>(made->tables.voids.size());
   view.voids = made->tables.voids.data();
   view.normals_sentence = "";
+  view.sampling = Scale(made->exponent)(made->flow.step);
+  view.faces_skipped = made->flow.cells.given_up;
   flow::CriticalPoints critical(context);
   TRY(flow::find_critical_points(made->flow.complex, &critical));
   view.critical_count[0] = critical.points;
@@ -301,6 +307,8 @@ static void fill_flow_view(const flow::Reconstruction& reconstruction, const Flo
   view->normals_places = outcome.normals_places;
   view->normals_sentence = normals_sentence(outcome.normals);
   view->caged_count = static_cast<uint32_t>(reconstruction.topology.chosen.size());
+  view->open_lid_count = reconstruction.open_lids;
+  view->untried_count = reconstruction.topology.untried;
   view->patches = tables.patches.data();
   view->loop_count = static_cast<uint32_t>(tables.loop_first.size() - 1);
   view->loop_first = tables.loop_first.data();

@@ -1,18 +1,15 @@
 // Solids of wireframes: which flat faces are faces of something, and which only cross its inside.
 //
 // In: the flat faces, any cycle in a plane among them. Out: for each triangle its turn in the
-// search for voids, and the curves that are settled. The faces cut space into cells. A face stays
-// if its rim needs it: a curve is where two faces make a crease, so a third face at a curve is one
-// too many, and two in one plane leave nothing to draw a curve for. Cells are merged, the outside
-// among them, the best merger first, as long as that makes the curves' faults fewer: three or more
-// faces count as their length, two that are flat as half as much again, none at all is not allowed.
-// So the floor of an attic goes, as do the lids of a hole, and the wall between two boxes in a row
-// stays. Faces that part cells then are passed last; likewise those of cells that curved faces
-// leave open, where none of their curves has too many. Near-linear. Sources: G. Markowsky, M. A.
-// Wesley, "Fleshing Out Wire Frames", 1980, for cells and edges; the weights are our own.
+// search for voids, and the curves that are settled. The faces cut space into cells, and cells are
+// merged where their curves need no face between (merge_cells.h): the floor of an attic goes, as do
+// the lids of a hole, and the wall between two boxes in a row stays. Faces that part cells then are
+// passed last; likewise, late, those of cells that curved faces leave open, where none of their
+// curves has too many, and the lids of such (flat_lids.h). Linear but for these two. Source: G.
+// Markowsky, M. A. Wesley, "Fleshing Out Wire Frames", 1980.
 #pragma once
 
-#include "flow/flat_faces.h"
+#include "flow/flat_lids.h"
 #include "flow/persistence.h"
 
 namespace wireskin::flow {
@@ -24,12 +21,16 @@ struct FlatCells {
   Array<Pass> turn;  // of each triangle; empty where there are no faces
   Array<Need> need;  // of each edge of the curves, and of each chord
   bool any_settled = false;
+  // Lids that are left to the radii: of each the triangles in its middle, in all layers.
+  Array<uint32_t> lid_start, lid_middle;
+  bool given_up = false;  // on the faces
 
-  explicit FlatCells(Context& context) : turn(context), need(context) {}
+  explicit FlatCells(Context& context)
+      : turn(context), need(context), lid_start(context), lid_middle(context) {}
 };
 
 Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
-                       FlatCells* cells);
+                       Lids lids, FlatCells* cells);
 
 }  // namespace wireskin::flow

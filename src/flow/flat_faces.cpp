@@ -11,6 +11,7 @@ static constexpr double k_beside = 1e-5;        // of the diagonal, from an edge
 static constexpr uint8_t k_most_visits = 4;
 // Of lines and samples looked at; who draws faces as dense as that gets none.
 static constexpr size_t k_most_work = size_t{1} << 26;
+static constexpr size_t k_work_per_checkpoint = size_t{1} << 17;
 
 namespace {
 
@@ -29,7 +30,7 @@ struct FaceFlood {
   PointGrid grid;
   Array<uint32_t> curved;
   Array<Crossed> crossed;
-  size_t work = 0;
+  size_t work = 0, next_checkpoint = k_work_per_checkpoint;
   Array<uint32_t> mark;               // of each triangle: the seed whose face it was last in
   Array<uint8_t> visits;              // of each triangle
   Array<uint32_t> member;             // the face
@@ -57,6 +58,11 @@ struct FaceFlood {
         next(context),
         seen(context),
         border_edge(context) {}
+  Status pause() {
+    if (work <= next_checkpoint) return {};
+    next_checkpoint = work + k_work_per_checkpoint;
+    return mark.context().checkpoint();
+  }
 };
 
 }  // namespace
@@ -150,6 +156,18 @@ static bool is_line(const Complex& complex, const CurveEdges& curves, const Stra
   return lines.common(v[0], v[1], v[2]) != k_none;
 }
 
+// Whether a piece of curve from p to q crosses one from a to b in their plane, away from its ends.
+static bool crosses_edge(const Plane& plane, const Vec3& a, const Vec3& b, double margin,
+                         const Vec3& p, const Vec3& q) {
+  const Vec3 along = unit(b - a);
+  const Vec3 across = cross(plane.normal, along);
+  const double at_p = dot(p - a, across), at_q = dot(q - a, across);
+  if (larger(at_p, at_q) < margin || smaller(at_p, at_q) > -margin) return false;
+  const double t = at_p / (at_p - at_q);
+  const double at = dot(p + t * (q - p) - a, along);
+  return at > margin && at < length(b - a) - margin;
+}
+
 // Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or
 // along its edges.
 static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, const Vec3& p,
@@ -171,12 +189,34 @@ static bool passes_through(const Complex& complex, const Plane& plane, uint32_t 
   return (to - from) * length(q - p) > margin;
 }
 
+// The longest edge of a triangle of samples that are in a row, but on no curve that they have in
+// common, or 3: it has no inside to pass through, yet may reach across curves.
+static uint32_t edge_of_sliver(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  double longest = 0.0;
+  uint32_t at = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const double size = length(complex.point[v[(k + 1) % 3]] - complex.point[v[k]]);
+    if (size > longest) at = k;
+    longest = larger(longest, size);
+  }
+  return twice_area(complex, t) > 4.0 * k_beside * complex.diagonal * longest ? 3 : at;
+}
+
+static bool reaches_across(const Complex& complex, const Plane& plane, uint32_t t, uint32_t sliver,
+                           const Vec3& p, const Vec3& q) {
+  if (sliver == 3) return passes_through(complex, plane, t, p, q);
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]],
+                      k_beside * complex.diagonal, p, q);
+}
+
 static bool near_plane(const Complex& complex, const Plane& plane, const Vec3& p) {
   return std::fabs(dot(p - plane.at, plane.normal)) <= k_flat * complex.diagonal;
 }
 
 static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_t seed, uint32_t t,
-                             FaceFlood* flood) {
+                             uint32_t sliver, FaceFlood* flood) {
   const Array<Vec3>& end = flood->line_end;
   if (flood->plane_line_of != seed) {
     flood->plane_line_of = seed;
@@ -190,7 +230,7 @@ static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_
   }
   flood->work += flood->plane_line.size();
   for (const uint32_t i : flood->plane_line) {
-    if (passes_through(complex, plane, t, end[i], end[i + 1])) return true;
+    if (reaches_across(complex, plane, t, sliver, end[i], end[i + 1])) return true;
   }
   return false;
 }
@@ -198,7 +238,7 @@ static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_
 // An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that
 // of which the segment is a diameter.
 static bool any_bend_crosses(const Complex& complex, const StraightLines& lines, const Plane& plane,
-                             uint32_t t, FaceFlood* flood) {
+                             uint32_t t, uint32_t sliver, FaceFlood* flood) {
   if (flood->curved.empty()) return false;
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
@@ -210,7 +250,7 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
     for (uint32_t k = flood->next_start[i]; k < flood->next_start[i + 1]; ++k) {
       const Vec3& q = complex.point[flood->next[k]];
       if (!near_plane(complex, plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
-      if (passes_through(complex, plane, t, complex.point[i], q)) return true;
+      if (reaches_across(complex, plane, t, sliver, complex.point[i], q)) return true;
     }
     return false;
   });
@@ -221,8 +261,9 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
 static bool is_crossed(const Complex& complex, const StraightLines& lines, const Plane& plane,
                        uint32_t seed, uint32_t t, FaceFlood* flood) {
   if (flood->crossed[t] == Crossed::unknown) {
-    const bool crossed = any_line_crosses(complex, plane, seed, t, flood) ||
-                         any_bend_crosses(complex, lines, plane, t, flood);
+    const uint32_t sliver = edge_of_sliver(complex, t);
+    const bool crossed = any_line_crosses(complex, plane, seed, t, sliver, flood) ||
+                         any_bend_crosses(complex, lines, plane, t, sliver, flood);
     flood->crossed[t] = crossed ? Crossed::yes : Crossed::no;
   }
   return flood->crossed[t] == Crossed::yes;
@@ -258,9 +299,11 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     return flood->member.push(t);
   };
   TRY(add(seed));
-  for (size_t i = 0; i < flood->member.size(); ++i) {
+  for (size_t i = 0; i < flood->member.size() && flood->work <= k_most_work; ++i) {
+    TRY(flood->pause());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
+      ++flood->work;
       if (on_rim(complex, curves, lines, e)) continue;
       for (const uint32_t t : complex.triangles_of(e)) {
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
@@ -296,6 +339,7 @@ static Status close_face(const Complex& complex, const CurveEdges& curves,
     const uint32_t t = left.back();
     left.pop();
     ++flood->work;
+    TRY(flood->pause());
     if (flood->mark[t] != seed) continue;
     if (goes_on_all_round(complex, curves, lines, *flood, plane, seed, t)) continue;
     flood->mark[t] = k_none;
@@ -525,29 +569,23 @@ static Status forget_faces(FlatFaces* faces) {
   faces->rim_start.clear();
   faces->rim.clear();
   for (FlatPart& part : faces->part) part = FlatPart::none;
+  faces->given_up = true;
   return {};
 }
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
-  constexpr size_t k_work_per_checkpoint = 1u << 17;
   FaceFlood flood(context);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
   TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
-  size_t next_checkpoint = k_work_per_checkpoint;
   for (const uint32_t seed : seeds) {
     if (flood.visits[seed] != 0) continue;
     const Plane plane = plane_of(complex, seed);
     if (is_crossed(complex, lines, plane, seed, seed, &flood)) continue;
     TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
-    flood.work += flood.member.size();
     if (flood.work > k_most_work) return forget_faces(faces);
-    if (flood.work > next_checkpoint) {
-      TRY(context.checkpoint());
-      next_checkpoint = flood.work + k_work_per_checkpoint;
-    }
     TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
     TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));

@@ -31,8 +31,9 @@ struct FlatFaces {
   Array<Vec3> normal;               // of each face
   Array<uint8_t> polygon;           // of each face: 0 for a disc
   Array<uint32_t> rim_start;
-  Array<FaceRim> rim;    // of each face, an arc once
-  Array<FlatPart> part;  // of each triangle; a line: its corners lie on one, so in no plane
+  Array<FaceRim> rim;     // of each face, an arc once
+  Array<FlatPart> part;   // of each triangle; a line: its corners lie on one, so in no plane
+  bool given_up = false;  // too much to look at: there are none
 
   explicit FlatFaces(Context& context)
       : start(context),

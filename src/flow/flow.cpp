@@ -34,7 +34,7 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   TRY(find_straight_lines(flow->complex, flow->samples, &lines));
   TRY(find_flat_faces(context, flow->complex, flow->samples, flow->curves, lines, &faces));
   TRY(find_flat_cells(context, flow->complex, flow->samples, flow->curves, lines, faces,
-                      &flow->cells));
+                      options.lids, &flow->cells));
   return find_persistence(context, flow->complex, &flow->persistence, flow->cells.turn.span());
 }
 
@@ -84,6 +84,14 @@ static Status count_reconstruction(Context& context, const Flow& flow, Reconstru
     if (e != k_none && walls.degree[e] == 0) TRY(result->bare.push(i));
   }
   for (const uint32_t degree : walls.degree) result->crowded_edges += degree > 2;
+  const FlatCells& cells = flow.cells;
+  for (size_t l = 0; l + 1 < cells.lid_start.size(); ++l) {
+    bool closed = false;
+    for (uint32_t i = cells.lid_start[l]; i < cells.lid_start[l + 1]; ++i) {
+      closed = closed || walls.in[cells.lid_middle[i]] != 0;
+    }
+    result->open_lids += !closed;
+  }
   for (const PatchFacts& p : result->patches.facts) result->open_patches += p.open;
   return {};
 }

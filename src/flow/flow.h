@@ -21,6 +21,7 @@ struct FlowOptions {
   double sampling = 0.0;
   double spacing = 0.0;
   bool bend = false;  // the samples are of smooth curves, not corners of polylines
+  Lids lids = Lids::single;
   ComplexOptions complex;
 };
 
@@ -59,6 +60,7 @@ struct Reconstruction {
   uint32_t betti[3] = {};  // of the walls and the curves together
   uint32_t open_patches = 0;
   uint32_t crowded_edges = 0;  // edges of more than two triangles
+  uint32_t open_lids = 0;      // ends of tubes that no wall closes
   explicit Reconstruction(Context& context) : topology(context), patches(context), bare(context) {}
 };
 

@@ -45,7 +45,8 @@ static uint64_t descending_bits(double value) {
 }
 
 static bool is_in_turn(Pass pass, Pass now) {
-  return pass == now || (pass == Pass::flat && now == Pass::by_radius);
+  return pass == now || (pass == Pass::flat && now == Pass::by_radius) ||
+         (pass == Pass::hole && now == Pass::first);
 }
 
 // By their turn, then decreasing value, then number.
@@ -117,10 +118,12 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
     const uint32_t t = order[i];
     uint32_t low = voids.root_of(complex.side_of(t, 0));
     uint32_t high = voids.root_of(complex.side_of(t, 1));
+    const bool hole = !turn.empty() && turn[t] == Pass::hole;
+    if (hole) persistence->creator[t] = 1;
     if (low == high) continue;
     if (lower_maximum(complex, voids.maximum[high], voids.maximum[low])) swap_values(low, high);
     persistence->creator[t] = 1;
-    maximum_of[t] = voids.maximum[low];
+    if (!hole) maximum_of[t] = voids.maximum[low];
     voids.parent[low] = high;
   }
   return list_voids(complex, maximum_of.span(), turn, persistence);

@@ -23,15 +23,15 @@ struct Void {
   bool held;     // the creator is passed last
 };
 
-// When a triangle is passed: before all others; by its radius, or a little later than that, for
-// walls that curves hold are surer than those of about the same radius in mid-air; after those; at
-// last.
-enum class Pass : uint8_t { first, by_radius, flat, late, last };
+// When a triangle is passed: before all others, and then it is no wall of anything; before all
+// others; by its radius, or a little later than that, for walls that curves hold are surer than
+// those of about the same radius in mid-air; after those; at last.
+enum class Pass : uint8_t { hole, first, by_radius, flat, late, last };
 
 struct Persistence {
   explicit Persistence(Context& context) : creator(context), void_of(context), voids(context) {}
 
-  Array<uint8_t> creator;   // for each triangle 1, or 0 for a destroyer
+  Array<uint8_t> creator;   // for each triangle 1, or 0 for a destroyer that may be a wall
   Array<uint32_t> void_of;  // for each triangle its place in voids, or k_none
   Array<Void> voids;  // held, or of ratio > 1 + 1e-6; held first, by decreasing ratio, then creator
 };

@@ -163,17 +163,21 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, const F
 // All that hold; down to a lesser ratio those that curves wait for, if any do.
 static Status try_voids(Context& context, const Complex& complex, const CurveEdges& curves,
                         const FlatCells& cells, const Persistence& persistence, double least_ratio,
-                        size_t wished, Array<Choice>* choices, Array<uint32_t>* unbounded) {
+                        size_t wished, Array<Choice>* choices, Array<uint32_t>* unbounded,
+                        uint32_t* untried) {
   VoidTrial trial(context);
   uint32_t tries = 0;
   bool waiting = false;
+  *untried = 0;
   for (const Need n : cells.need) waiting = waiting || n == Need::waiting;
   TRY(start_trial(complex, persistence, {}, &trial));
   for (uint32_t i = 0; i < persistence.voids.size() && choices->size() < wished; ++i) {
     const Void& v = persistence.voids[i];
     const bool high = v.ratio >= least_ratio;
     Verdict verdict = v.held ? Verdict::wanted : Verdict::gone;
-    if (!v.held && (high || (waiting && v.ratio >= k_least_wanted)) && tries < k_most_tries) {
+    const bool worth_it = !v.held && (high || (waiting && v.ratio >= k_least_wanted));
+    if (worth_it && tries == k_most_tries) ++*untried;
+    if (worth_it && tries < k_most_tries) {
       ++tries;
       TRY(context.checkpoint());
       TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
@@ -209,13 +213,13 @@ static void cut_at_gap(Array<Choice>* choices) {
 
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
                     const FlatCells& cells, const Persistence& persistence,
-                    const TopologyOptions& options, Array<uint32_t>* chosen) {
+                    const TopologyOptions& options, Array<uint32_t>* chosen, uint32_t* untried) {
   const bool automatic = options.voids < 0;
   const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
   Array<Choice> choices(context);
   Array<uint32_t> unbounded(context);
   TRY(try_voids(context, complex, curves, cells, persistence, automatic ? options.least_ratio : 1.0,
-                wished, &choices, &unbounded));
+                wished, &choices, &unbounded, untried));
   if (automatic) cut_at_gap(&choices);
   chosen->clear();
   for (const Choice& c : choices) TRY(chosen->push(c.place));
@@ -336,7 +340,8 @@ static Status remove_open_walls(Context& context, const Complex& complex, const 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
                             const FlatCells& cells, const Persistence& persistence,
                             const TopologyOptions& options, Topology3* topology) {
-  TRY(choose_voids(context, complex, curves, cells, persistence, options, &topology->chosen));
+  TRY(choose_voids(context, complex, curves, cells, persistence, options, &topology->chosen,
+                   &topology->untried));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {

@@ -25,6 +25,7 @@ struct TopologyOptions {
 
 struct Topology3 {
   Array<uint32_t> chosen;  // places in Persistence::voids
+  uint32_t untried = 0;    // voids that might have been chosen, past the most that are tried
   Sheet walls;             // the result
   Sheet closed;            // before handles and open walls were removed
   Array<uint32_t> label;   // of each tetrahedron, and of the outside (last): its void's root
@@ -59,7 +60,7 @@ Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* 
 
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
                     const FlatCells& cells, const Persistence& persistence,
-                    const TopologyOptions& options, Array<uint32_t>* chosen);
+                    const TopologyOptions& options, Array<uint32_t>* chosen, uint32_t* untried);
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
                             const FlatCells& cells, const Persistence& persistence,

@@ -255,6 +255,56 @@ TEST_CASE("One flow makes surfaces of any number of voids, the same each time") 
   wsk_flow_free(flow);
 }
 
+// Two circles and four rails.
+static Curves can() {
+  Curves net;
+  std::vector<double> low, high;
+  for (int i = 0; i < 48; ++i) {
+    const double a = 2.0 * 3.14159265358979323846 * i / 48;
+    low.insert(low.end(), {std::cos(a), std::sin(a), 0.0});
+    high.insert(high.end(), {std::cos(a), std::sin(a), 2.0});
+  }
+  net.add(low, true);
+  net.add(high, true);
+  for (size_t i = 0; i < 48; i += 12) {
+    net.add({low[3 * i], low[3 * i + 1], 0.0, high[3 * i], high[3 * i + 1], 2.0});
+  }
+  return net;
+}
+
+TEST_CASE("Round ends are open or closed as asked for, and those left open are counted") {
+  wsk_flow_options wish = flow_defaults();
+  CHECK(wish.lids == WSK_LIDS_SINGLE);
+  const Result tube = surface_of(can(), plain_options(), wish);
+  REQUIRE(tube.made == WSK_OK);
+  CHECK(tube.view.patch_count == 5);
+  CHECK(tube.view.open_lid_count == 1);
+  wish.lids = WSK_LIDS_ALL;
+  const Result closed = surface_of(can(), plain_options(), wish);
+  REQUIRE(closed.made == WSK_OK);
+  CHECK(closed.view.patch_count == 6);
+  CHECK(closed.view.betti[2] == 1);
+  CHECK(closed.view.open_lid_count == 0);
+  CHECK(closed.view.caged_count == 1);
+}
+
+TEST_CASE("A view tells the sampling, and what was not looked at") {
+  const Result plain = surface_of(cube());
+  CHECK(plain.view.sampling == doctest::Approx(0.02 * std::sqrt(3.0)));
+  CHECK(plain.view.faces_skipped == 0);
+  CHECK(plain.view.untried_count == 0);
+  wsk_flow_options wish = flow_defaults();
+  wish.sampling = 0.1;
+  CHECK(surface_of(cube(), plain_options(), wish).view.sampling == doctest::Approx(0.1));
+  // A spacing coarser than that coarsens the inside only: all samples stay.
+  wsk_options coarse = plain_options();
+  coarse.spacing = 0.3;
+  const Result wide = surface_of(cube(), coarse);
+  CHECK(wide.view.sample_count == plain.view.sample_count);
+  CHECK(wide.triangles.size() < plain.triangles.size());
+  CHECK(wide.positions.size() >= 3 * size_t{wide.view.sample_count});
+}
+
 TEST_CASE("Normals shape the surface") {
   wsk_options options = plain_options();
   options.spacing = 0.1;

@@ -170,6 +170,9 @@ TEST_CASE("refused: options of wsk_connect and of the flow") {
   };
   using Flow = wsk_flow_options*;
   flow_with("not initialised", [](Flow o) { o->size = 1; });
+  for (const int32_t bad : {-1, int32_t{WSK_LIDS_COUNT}}) {
+    flow_with("the lids are none", [bad](Flow o) { o->lids = bad; });
+  }
   for (const double bad : {-1.0, k_infinity, k_no_number}) {
     flow_with("the sampling is", [bad](Flow o) { o->sampling = bad; });
     flow_with("the thickness is", [bad](Flow o) { o->thickness = bad; });

@@ -71,6 +71,10 @@ TEST_CASE("what contradicts the topology asked for is refused") {
                      "--voids needs --topology flow"));
   CHECK(complains_of(with({"--topology", "normals", "--open-walls"}),
                      "--open-walls needs --topology flow"));
+  CHECK(complains_of(with({"--topology", "normals", "--lids", "all"}),
+                     "--lids needs --topology flow"));
+  CHECK(complains_of(with({"--lids", "some"}), "--lids needs auto, all or none"));
+  CHECK(parse_arguments(with({"--lids", "none"})).lids == WSK_LIDS_NONE);
   CHECK(complains_of(with({"--topology", "flow", "--partial"}),
                      "--partial does nothing with --topology flow"));
   CHECK(complains_of(with({"--topology", "flow", "--soft", "1"}),

@@ -16,13 +16,14 @@ struct RunOptions {
   bool open_walls = false;
   bool remesh = true;
   wireskin::network::SmoothingOptions smoothing = {wireskin::network::Noise::none, 0.0};
+  wireskin::flow::Lids lids = wireskin::flow::Lids::single;
 };
 
 struct Run {
   uint32_t betti[3];
   uint32_t patches = 0, annuli = 0, open = 0, crossings = 0;
   size_t bare = 0, chosen = 0;
-  uint32_t missing = 0;
+  uint32_t missing = 0, open_lids = 0;
   long long euler = 0;
   double area = 0.0, ratio = 0.0;
   std::vector<Vec3> position, raw_position;
@@ -61,6 +62,7 @@ inline Run run(const Net& net, const RunOptions& options = {}) {
   flow::FlowOptions flow_options;
   flow_options.sampling = options.eps * diagonal_of(net);
   flow_options.complex.seed = options.seed;
+  flow_options.lids = options.lids;
   unit::must(flow::build_flow(heap.context, arrays.view(), flow_options, &made));
   flow::Reconstruction result(heap.context);
   flow::ReconstructionOptions wish;
@@ -82,6 +84,7 @@ inline Run run(const Net& net, const RunOptions& options = {}) {
   r.chosen = result.topology.chosen.size();
   r.missing = made.curves.missing;
   r.crossings = raw.crossings + mesh.crossings;
+  r.open_lids = result.open_lids;
   r.euler = critical.euler();
   if (!made.persistence.voids.empty()) r.ratio = made.persistence.voids[0].ratio;
   for (const flow::PatchFacts& p : result.patches.facts) {

@@ -1,0 +1,90 @@
+#include "flow/flat_lids.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "flow/merge_cells.h"
+#include "flow/round.h"
+#include "unit/flow/prisms.h"
+
+using namespace unit;
+using flow_tests::Net;
+using namespace wireskin::flow;
+
+namespace {
+
+struct LidsOf : FlowOf {
+  StraightLines lines{heap.context};
+  FlatFaces faces{heap.context};
+  FaceRims rims{heap.context};
+  FaceCells cells{heap.context};
+  wireskin::Array<uint32_t> open{heap.context};
+
+  LidsOf(const Net& net, Lids which) : FlowOf(net) {
+    must(find_straight_lines(flow.complex, flow.samples, &lines));
+    must(find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, &faces));
+    must(link_rims(faces, uint32_t(flow.samples.start.size() - 1), &rims));
+    must(find_face_cells(flow.complex, faces, &rims, &cells));
+    must(merge_cells(heap.context, flow.samples, lines, faces, &rims, &cells));
+    must(find_lids(heap.context, flow.complex, flow.samples, lines, faces, which, &rims, &open));
+  }
+  size_t count(FaceState state) const {
+    return size_t(std::count(rims.state.begin(), rims.state.end(), state));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a can has two lids, of which none is the only one") {
+  const Net can = flow_tests::stack({{1, 0}, {1, 2}}, 4);
+  CHECK(LidsOf(can, Lids::all).count(FaceState::dangling) == 2);
+  const LidsOf single(can, Lids::single);
+  CHECK(single.count(FaceState::dangling) == 0);
+  CHECK(single.open.size() == 2);
+}
+
+TEST_CASE("a cone has one lid") {
+  const Net cone = flow_tests::pointed({{1, 0}}, 4, 2.0);
+  CHECK(LidsOf(cone, Lids::single).count(FaceState::dangling) == 1);
+  const LidsOf none(cone, Lids::none);
+  CHECK(none.count(FaceState::dangling) == 0);
+  CHECK(none.open.size() == 1);
+}
+
+TEST_CASE("what walls leave to both sides is a section, open where there are lids") {
+  const LidsOf three(flow_tests::stack({{1, 0}, {0.7, 1}, {0.5, 2}}, 4), Lids::all);
+  CHECK(three.count(FaceState::dangling) == 2);
+  CHECK(three.count(FaceState::hole) == 1);
+  const LidsOf sphere(flow_tests::great_circles(), Lids::all);
+  CHECK(sphere.count(FaceState::dangling) + sphere.count(FaceState::hole) == 0);
+  CHECK(sphere.open.empty());
+}
+
+TEST_CASE("circles that a torus lies flat on are no lids") {
+  const LidsOf torus(flow_tests::torus_net(12, 8, 0.6, 6), Lids::all);
+  CHECK(torus.count(FaceState::dangling) == 0);
+}
+
+TEST_CASE("a circle alone is no lid, two in a row neither") {
+  CHECK(LidsOf(flow_tests::stack({{1, 0}, {1, 1}}, 0), Lids::all).open.empty());
+  CHECK(LidsOf(flow_tests::stack({{1, 0}, {1, 1}}, 0), Lids::all).count(FaceState::dangling) == 0);
+}
+
+TEST_CASE("where a knob stands on a box there is a hole, and a lid at its end") {
+  const LidsOf knob(flow_tests::box_with_knob(4), Lids::single);
+  CHECK(knob.count(FaceState::hole) == 1);
+  CHECK(knob.count(FaceState::dangling) == 7);  // with the sides of the box
+}
+
+TEST_CASE("each network has its own lids") {
+  Net two = flow_tests::pointed({{1, 0}}, 4, 2.0);
+  const Net other = flow_tests::pointed({{1, 0}}, 6, 2.0);
+  const uint32_t first = uint32_t(two.vertex.size());
+  for (const Vec3& p : other.vertex) two.add(p + Vec3{5, 0, 0});
+  for (std::vector<uint32_t> curve : other.curve) {
+    for (uint32_t& v : curve) v += first;
+    two.curve.push_back(curve);
+  }
+  CHECK(LidsOf(two, Lids::single).count(FaceState::dangling) == 2);
+}
