@@ -3,6 +3,7 @@
 #include "network/group_enclosed.h"
 #include "network/group_facing.h"
 #include "network/group_guests.h"
+#include "network/group_rings.h"
 #include "network/group_sight.h"
 #include "network/regroup.h"
 
@@ -65,6 +66,7 @@ Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity*
   TRY(take_components(&planes));
   TRY(find_enclosing(*network, vertices, planes.components, &planes.enclosing));
   TRY(join_enclosed(&planes));
+  TRY(join_rings(&planes));
   TRY(join_in_sight(&planes));
   TRY(join_facing(&planes));
   TRY(rebuild(&planes, &number, &ambiguous));

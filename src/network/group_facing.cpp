@@ -29,7 +29,7 @@ static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing
   const Network& network = *g->network;
   Border border(g->parent.context());
   for (uint32_t p = 0; p < network.patches(); ++p) {
-    if (g->root(p) != p || g->reversed[p] ||
+    if (g->root(p) != p || g->reversed[p] || g->settled[p] ||
         network.patch_start[p + 1] != network.patch_start[p] + 1)
       continue;
     TRY(border_of_patch(network, g->vertices, p, &border));
@@ -77,7 +77,7 @@ static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<cons
 
 namespace {
 
-// How far rule 2 has come.
+// How far rule 4 has come.
 struct Pairing {
   Array<Facing> facing;
   Array<uint8_t> joined;   // facing

@@ -1,4 +1,4 @@
-// Rule 3 of network/group.h: loops face each other where a band between them has less area than
+// Rule 4 of network/group.h: loops face each other where a band between them has less area than
 // closing both alone would take.
 //
 // In: the loops that nothing was joined to yet, rings of boundary curves by both sides. Out: pairs

@@ -67,7 +67,7 @@ struct Lookout {
 
 // Whether a patch is a loop that looks for others.
 static bool asks_for_others(const Grouping& g, uint32_t p, const Border& border) {
-  return !g.network->ring[p] && g.is_alone(p) && border.loops() == 1 &&
+  return !g.network->ring[p] && g.is_alone(p) && !g.settled[p] && border.loops() == 1 &&
          curvature_inside(border, 0) >= k_least_curvature && knows_normals(border, 0);
 }
 

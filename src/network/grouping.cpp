@@ -19,6 +19,8 @@ Grouping::Grouping(Context& context, const CurveVertices& of, Network* net)
       holder(context),
       doubtful(context),
       ambiguous(context),
+      settled(context),
+      closed(context),
       passed(context) {}
 
 void Grouping::join(uint32_t a, uint32_t b) {
@@ -62,6 +64,19 @@ static Status list_patches_at_corners(Grouping* g) {
   return {};
 }
 
+static Status find_closed_curves(Grouping* g) {
+  const Network& network = *g->network;
+  TRY(g->closed.assign(g->components.members.count(), 0));
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    uint32_t* count = &g->closed[g->component[p]];
+    const bool one_loop = network.patch_start[p + 1] == network.patch_start[p] + 1;
+    const uint32_t most = network.ring[p] ? 1 : 2;
+    const bool fits = one_loop && network.inner[p].empty() && *count < most;
+    *count = fits ? *count + 1 : k_none;
+  }
+  return {};
+}
+
 Status take_components(Grouping* g) {
   const Network& network = *g->network;
   const uint32_t patches = network.patches();
@@ -72,6 +87,7 @@ Status take_components(Grouping* g) {
   TRY(g->reversed.assign(patches, 0));
   TRY(g->told.assign(patches, 0));
   TRY(g->ambiguous.assign(patches, 0));
+  TRY(g->settled.assign(patches, 0));
   TRY(g->passed.assign(g->vertices.position.size(), 0));
   TRY(g->holder.assign(g->components.members.count(), k_none));
   TRY(g->doubtful.assign(g->components.members.count(), k_none));
@@ -80,6 +96,7 @@ Status take_components(Grouping* g) {
     g->component[p] =
         g->components.of_vertex[segment_vertex(network, g->vertices, network.cycle(p)[0] / 2, 0)];
   }
+  TRY(find_closed_curves(g));
   TRY(list_corners(g));
   return list_patches_at_corners(g);
 }

@@ -25,6 +25,9 @@ struct Grouping {
   Array<uint32_t> holder;      // of each component that bounds nothing: its patch
   Array<uint32_t> doubtful;    // the same where another patch may be the right one
   Array<uint8_t> ambiguous;    // of each patch
+  Array<uint8_t> settled;      // of each patch: a side of a ring that no other loop is to join
+  Array<uint32_t> closed;      // of each component: how many patches, if it is one closed curve
+                               // that meets no other, else k_none
   Array<uint8_t> passed;       // of each vertex, zero between questions
 
   Grouping(Context& context, const CurveVertices& of, Network* net);

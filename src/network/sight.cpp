@@ -136,23 +136,29 @@ Status build_sight_tree(SightMap* map) {
 
 // ---- Looking ------------------------------------------------------------------------------------
 
-double way_between(const SightPlace& p, const SightPlace& q) {
+SightTurn turn_between(const SightPlace& p, const SightPlace& q) {
   const Vec3 way = q.position - p.position;
   const double chord = length(way);
-  if (chord == 0.0) return -1.0;
+  if (chord == 0.0) return {0.0, -1.0, -1.0, -1.0};
   const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
-  const double least = p.loop == q.loop ? k_least_own_cosine : 0.0;
-  if (!(out > least && back > least)) return -1.0;
-  // Along the way the conormal turns into the chord and on; the normal is carried along.
+  // Along the way the conormal turns into the chord and on; the normal is carried along. Who turns
+  // back on the spot has no axis to turn about.
+  constexpr double k_turns_back = -0.999;
+  if (!(out > k_turns_back && back > k_turns_back)) return {chord, out, back, -1.0};
   const auto carry = [](const Vec3& n, const Vec3& from, const Vec3& to) {
     const Vec3 axis = cross(from, to);
     return dot(from, to) * n + cross(axis, n) + (dot(axis, n) / (1.0 + dot(from, to))) * axis;
   };
   const Vec3 along = (1.0 / chord) * way;
   const Vec3 carried = carry(carry(p.normal, p.conormal, along), along, -q.conormal);
-  const double twist = dot(carried, q.normal);
-  if (!(twist > 0.0)) return -1.0;
-  return chord * 8.0 / ((1.0 + out) * (1.0 + back) * (1.0 + twist));
+  return {chord, out, back, dot(carried, q.normal)};
+}
+
+double way_between(const SightPlace& p, const SightPlace& q) {
+  const SightTurn t = turn_between(p, q);
+  const double least = p.loop == q.loop ? k_least_own_cosine : 0.0;
+  if (!(t.out > least && t.back > least && t.twist > 0.0)) return -1.0;
+  return t.chord * 8.0 / ((1.0 + t.out) * (1.0 + t.back) * (1.0 + t.twist));
 }
 
 static bool have_common(Span<const uint32_t> a, Span<const uint32_t> b) {

@@ -70,6 +70,13 @@ Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool 
 // Once all loops were added.
 Status build_sight_tree(SightMap* map);
 
+// How the surface turns on its way from p to q: the cosines of the chord with the conormal of p and
+// against that of q, and of the normals when that of p is carried along.
+struct SightTurn {
+  double chord, out, back, twist;
+};
+SightTurn turn_between(const SightPlace& p, const SightPlace& q);
+
 // About how long the surface is from p to q; negative where they do not look at each other.
 double way_between(const SightPlace& p, const SightPlace& q);
 
