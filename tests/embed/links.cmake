@@ -1,15 +1,12 @@
-# Who can link the library: C programs by tcc, gcc in strict C89, musl and mingw; a WebAssembly module
-# that imports nothing; and how large it is for a Cortex-M4. Toolchains that are not here are skipped by
-# name.
+# Who can link the library (ARCHIVE, as it ships): C programs by tcc, gcc in strict C89 and musl (mingw:
+# golden/cross.cmake); a WebAssembly module that imports nothing; and how large it is for a Cortex-M4.
+# Toolchains that are not here are skipped by name.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/tests/embed/start.cmake)
 set(user ${ROOT}/tests/embed/c89_user.c)
 set(library_flags -std=c++17 -O1 -fno-exceptions -fno-rtti -fno-threadsafe-statics -I${WORK})
 
 # C programs on this machine, each by a compiler of its own.
-execute_process(COMMAND g++ ${library_flags} -c ${implementation} -o ${WORK}/library.o
-                COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ar rcs ${WORK}/libwireskin.a ${WORK}/library.o COMMAND_ERROR_IS_FATAL ANY)
 foreach(compiler "tcc" "gcc -std=c89 -pedantic-errors" "musl-gcc -static")
   separate_arguments(words UNIX_COMMAND "${compiler}")
   list(GET words 0 program)
@@ -17,7 +14,7 @@ foreach(compiler "tcc" "gcc -std=c89 -pedantic-errors" "musl-gcc -static")
   if(NOT found)
     continue()
   endif()
-  execute_process(COMMAND ${words} -I${WORK} ${user} ${WORK}/libwireskin.a -lm -o ${WORK}/user
+  execute_process(COMMAND ${words} -I${WORK} ${user} ${ARCHIVE} -lm -o ${WORK}/user
                   RESULT_VARIABLE result ERROR_VARIABLE text)
   if(NOT result EQUAL 0)
     message(SEND_ERROR "${compiler}: does not link\n${text}")
@@ -25,18 +22,6 @@ foreach(compiler "tcc" "gcc -std=c89 -pedantic-errors" "musl-gcc -static")
   endif()
   must("${compiler}" ${WORK}/user)
 endforeach()
-
-look_for(mingw x86_64-w64-mingw32-g++ x86_64-w64-mingw32-gcc wine64)
-if(found)
-  find_program(wine wine64 PATHS /usr/lib/wine)
-  set(ENV{WINEDEBUG} -all)
-  set(ENV{WINEPREFIX} ${WORK}/wine)
-  execute_process(COMMAND x86_64-w64-mingw32-g++ ${library_flags} -c ${implementation}
-                          -o ${WORK}/library_windows.o COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND x86_64-w64-mingw32-gcc -I${WORK} ${user} ${WORK}/library_windows.o
-                          -o ${WORK}/user.exe COMMAND_ERROR_IS_FATAL ANY)
-  must("mingw" ${wine} ${WORK}/user.exe)
-endif()
 
 # A module without a host: nothing is imported, a page or a script may instantiate it with {}.
 look_for(wasm clang++-14 clang-14 node)

@@ -1,24 +1,22 @@
 # The reference scenes under a tool that sees reads of memory that was never written: MemorySanitizer, or
-# valgrind on a plain build (which also sees every leak and every access out of bounds). The golden
-# hashes are compared, so every byte of every result counts as read.
+# valgrind on a plain build, PROGRAM (which also sees every leak and every access out of bounds). The
+# golden hashes are compared, so every byte of every result counts as read.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/tests/embed/start.cmake)
-set(sources -std=c++17 -O1 -g1 -ffp-contract=off -I${WORK} -I${ROOT}/tests
-    ${golden_sources} ${implementation})
-
 if(TOOL STREQUAL "valgrind")
-  look_for(valgrind valgrind g++)
+  look_for(valgrind valgrind)
   if(found)
-    execute_process(COMMAND g++ ${sources} -o ${WORK}/scenes COMMAND_ERROR_IS_FATAL ANY)
-    must(valgrind valgrind --quiet --error-exitcode=9 --leak-check=full ${WORK}/scenes)
+    must(valgrind valgrind --quiet --error-exitcode=9 --leak-check=full ${PROGRAM})
   endif()
 else()
   # The C++ runtime of the system is not instrumented; with its templates instantiated here instead of
   # there, none of it that matters is left.
   look_for(MemorySanitizer clang++)
   if(found)
-    execute_process(COMMAND clang++ ${sources} -fsanitize=memory -fsanitize-memory-track-origins
-                            -D_GLIBCXX_EXTERN_TEMPLATE=0 -o ${WORK}/scenes
+    execute_process(COMMAND clang++ -std=c++17 -O1 -g1 -ffp-contract=off -I${WORK} -I${ROOT}/tests
+                            ${golden_sources} ${implementation} -fsanitize=memory
+                            -fsanitize-memory-track-origins -D_GLIBCXX_EXTERN_TEMPLATE=0
+                            -o ${WORK}/scenes
                     COMMAND_ERROR_IS_FATAL ANY)
     must(MemorySanitizer ${WORK}/scenes)
   endif()

@@ -1,7 +1,10 @@
 # The library as others receive it: installed, static and shared, moved to another folder, then found
 # by find_package and by pkg-config from C projects outside the tree. Uses of add_subdirectory and of
-# the single header are tested by symbols.cmake and by the tests that compile it.
+# the single header are tested by symbols.cmake and by the tests that compile it. What is built here
+# by COMPILER, as it ships, other tests look at: the static one as any Release build would make it, the
+# shared one with fused multiply-add allowed.
 cmake_minimum_required(VERSION 3.25)
+include(${ROOT}/tests/golden/fused.cmake)
 find_program(cc NAMES cc gcc clang REQUIRED)
 find_program(nm nm REQUIRED)
 find_program(pkg_config NAMES pkg-config pkgconf)
@@ -29,8 +32,12 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 foreach(shared OFF ON)
   set(work ${WORK}/shared_${shared})
+  set(flags "")
+  if(shared)
+    set(flags "${fused}")
+  endif()
   run(${CMAKE_COMMAND} -S ${ROOT} -B ${work}/build -DCMAKE_BUILD_TYPE=Release
-      -DBUILD_SHARED_LIBS=${shared} -DWIRESKIN_BUILD_TESTS=OFF -DWIRESKIN_BUILD_EXAMPLES=OFF
+      -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${flags}" -DBUILD_SHARED_LIBS=${shared} -DWIRESKIN_BUILD_TESTS=OFF -DWIRESKIN_BUILD_EXAMPLES=OFF
       -DCMAKE_INSTALL_PREFIX=${work}/first)
   run(${CMAKE_COMMAND} --build ${work}/build -j 2)
   run(${CMAKE_COMMAND} --install ${work}/build)

@@ -1,59 +1,87 @@
 # The golden hashes come out the same from every compiler at hand, unoptimised and optimised, from
 # separate sources and from the single header (which gets no flag that keeps floating point strict:
-# it must do so itself). TIER=quick builds one of the variants, TIER=full four by each compiler.
+# it must do so itself). TIER=quick builds one of the variants, TIER=full four by each compiler, but
+# for those that PACKAGE, the folder of embed/package, has: the library that its COMPILER made.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/tests/embed/start.cmake)
 include(${ROOT}/tests/embed/find_compilers.cmake)
+include(${ROOT}/tests/golden/fused.cmake)
 
 file(GLOB_RECURSE sources ${ROOT}/src/*.cpp)
 
-# Where the processor has fused multiply-add, the compiler is allowed to use it and must not.
-set(fused "")
-if(EXISTS /proc/cpuinfo)
-  file(STRINGS /proc/cpuinfo flags REGEX "^flags.* fma .* avx2 |^flags.* avx2 .* fma " LIMIT_COUNT 1)
-  if(flags)
-    set(fused "-O3 -mavx2 -mfma")
+function(run cxx what print)
+  execute_process(COMMAND ${print} --arrays OUTPUT_VARIABLE text RESULT_VARIABLE result)
+  get_filename_component(name ${cxx} NAME)
+  if(result EQUAL 0)
+    message(STATUS "${name} ${what}: equal")
+  else()
+    message(SEND_ERROR "${name} ${what}: other bits than tests/golden/golden.h\n${text}")
   endif()
-endif()
+endfunction()
+
+# The scenes are input: their arithmetic must not be contracted. They are compiled once by each
+# compiler, whatever the library's flags.
+function(compile_scenes cxx)
+  file(MAKE_DIRECTORY ${WORK}/scenes)
+  execute_process(COMMAND ${cxx} -std=c++17 -O1 -ffp-contract=off -I${ROOT}/tests -I${WORK}
+                          -c ${golden_sources}
+                  WORKING_DIRECTORY ${WORK}/scenes COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
 
 function(check_variant cxx form flags)
-  get_filename_component(name ${cxx} NAME)
   separate_arguments(flag_list UNIX_COMMAND "${flags}")
-  # The scenes are input: their arithmetic must not be contracted either.
-  set(strict ${golden_sources} -I${ROOT}/tests -ffp-contract=off)
+  file(GLOB scenes ${WORK}/scenes/*.o)
   if(form STREQUAL "single")
-    execute_process(
-      COMMAND ${cxx} -std=c++17 ${flag_list} -I${WORK} -c ${implementation}
-              -o ${WORK}/implementation.o
-      COMMAND_ERROR_IS_FATAL ANY)
-    set(library -I${WORK} ${WORK}/implementation.o)
+    set(library -I${WORK} ${implementation})
   else()
-    set(library -I${ROOT}/src ${sources})
+    set(library -I${ROOT}/src -ffp-contract=off ${sources})
   endif()
-  execute_process(COMMAND ${cxx} -std=c++17 ${flag_list} ${library} ${strict} -o ${WORK}/print
+  execute_process(COMMAND ${cxx} -std=c++17 ${flag_list} ${library} ${scenes} -o ${WORK}/print
                   COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND ${WORK}/print --arrays OUTPUT_VARIABLE text RESULT_VARIABLE result)
-  if(result EQUAL 0)
-    message(STATUS "${name} ${flags} ${form}: equal")
-  else()
-    message(SEND_ERROR "${name} ${flags} ${form}: other bits than tests/golden/golden.h\n${text}")
+  run(${cxx} "${flags} ${form}" ${WORK}/print)
+endfunction()
+
+function(check_library cxx library)
+  file(GLOB scenes ${WORK}/scenes/*.o)
+  get_filename_component(folder ${library} DIRECTORY)
+  execute_process(COMMAND ${cxx} ${scenes} ${library} -Wl,-rpath,${folder} -o ${WORK}/print
+                  COMMAND_ERROR_IS_FATAL ANY)
+  file(RELATIVE_PATH path ${PACKAGE} ${library})
+  run(${cxx} "of embed/package, ${path}" ${WORK}/print)
+endfunction()
+
+# Whether PACKAGE has the variants of separate sources of this compiler; checks them where it has.
+function(check_package cxx)
+  set(in_package FALSE PARENT_SCOPE)
+  file(REAL_PATH ${cxx} path)
+  file(REAL_PATH ${COMPILER} packaged)
+  set(archive ${PACKAGE}/shared_OFF/build/libwireskin.a)
+  set(shared ${PACKAGE}/shared_ON/build/libwireskin.so)
+  if(path STREQUAL packaged AND EXISTS ${archive} AND EXISTS ${shared})
+    check_library(${cxx} ${archive})
+    check_library(${cxx} ${shared})
+    set(in_package TRUE PARENT_SCOPE)
   endif()
 endfunction()
 
 if(TIER STREQUAL "quick")
   list(REVERSE compilers)  # clang first: the separate sources are mostly tested with gcc
-  foreach(cxx IN LISTS compilers)
-    check_variant(${cxx} single -O0)
-    break()
-  endforeach()
-else()
-  foreach(cxx IN LISTS compilers)
-    check_variant(${cxx} single -O0)
-    check_variant(${cxx} separate -O3)
-    foreach(form single separate)
-      if(fused)
-        check_variant(${cxx} ${form} "${fused}")
-      endif()
-    endforeach()
-  endforeach()
+  list(SUBLIST compilers 0 1 compilers)
 endif()
+foreach(cxx IN LISTS compilers)
+  compile_scenes(${cxx})
+  check_variant(${cxx} single -O0)
+  if(TIER STREQUAL "quick")
+    continue()
+  endif()
+  if(fused)
+    check_variant(${cxx} single "-O3 ${fused}")
+  endif()
+  check_package(${cxx})
+  if(NOT in_package)
+    check_variant(${cxx} separate -O3)
+    if(fused)
+      check_variant(${cxx} separate "-O3 ${fused}")
+    endif()
+  endif()
+endforeach()

@@ -14,7 +14,6 @@
 #include <cstring>
 #include <map>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -182,6 +181,83 @@ struct Truth {
   std::exit(1);
 }
 
+// The half-edges of a mesh, those that leave each vertex together.
+struct HalfEdges {
+  std::vector<uint32_t> start, from, to, apex, triangle;
+
+  HalfEdges(size_t points, const Array<uint32_t>& corners)
+      : start(points + 1, 0),
+        from(corners.size()),
+        to(corners.size()),
+        apex(corners.size()),
+        triangle(corners.size()) {
+    for (const uint32_t v : corners) ++start[v + 1];
+    for (size_t v = 0; v < points; ++v) start[v + 1] += start[v];
+    std::vector<uint32_t> next(start.begin(), start.end() - 1);
+    for (uint32_t i = 0; i < corners.size(); ++i) {
+      const uint32_t t = i / 3, h = next[corners[i]]++;
+      from[h] = corners[i];
+      to[h] = corners[3 * t + (i + 1) % 3];
+      apex[h] = corners[3 * t + (i + 2) % 3];
+      triangle[h] = t;
+    }
+  }
+  uint32_t size() const { return static_cast<uint32_t>(to.size()); }
+  bool leaves(uint32_t v) const { return start[v] != start[v + 1]; }
+  uint32_t find(uint32_t a, uint32_t b) const {
+    for (uint32_t h = start[a]; h < start[a + 1]; ++h) {
+      if (to[h] == b) return h;
+    }
+    return k_none;
+  }
+  uint32_t twin(uint32_t h) const { return find(to[h], from[h]); }
+};
+
+// V - E + F of the closed triangles, corner by corner: the triangles round a vertex form fans, and
+// each fan beyond the first at a vertex that the border touches twice would be a vertex more. Each
+// component of the inside with b border circles has 2 - b in this count.
+const char* check_euler(const HalfEdges& half, const std::vector<uint32_t>& twin, size_t edges) {
+  const size_t triangles = half.size() / 3, points = half.start.size() - 1;
+  std::vector<size_t> rim_edges(points, 0);
+  for (uint32_t h = 0; h < half.size(); ++h) rim_edges[half.from[h]] += twin[h] == k_none ? 1 : 0;
+  size_t fans = 0;
+  for (uint32_t v = 0; v < points; ++v) {
+    if (half.leaves(v)) fans += rim_edges[v] != 0 ? rim_edges[v] : 1;
+  }
+  std::vector<size_t> parent(triangles);
+  for (size_t i = 0; i < parent.size(); ++i) parent[i] = i;
+  const auto root = [&](size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::vector<uint32_t> next_rim(half.size(), k_none);
+  for (uint32_t h = 0; h < half.size(); ++h) {
+    if (twin[h] != k_none) {
+      parent[root(half.triangle[h])] = root(half.triangle[twin[h]]);
+      continue;
+    }
+    // Turn round the end within its fan to the next rim edge.
+    uint32_t out = half.find(half.to[h], half.apex[h]);
+    while (twin[out] != k_none) {
+      const uint32_t beyond = twin[out];
+      out = half.find(half.to[beyond], half.apex[beyond]);
+    }
+    next_rim[h] = out;
+  }
+  size_t components = 0, circles = 0;
+  for (size_t i = 0; i < parent.size(); ++i) components += root(i) == i ? 1u : 0u;
+  std::vector<char> seen(half.size(), 0);
+  for (uint32_t h = 0; h < half.size(); ++h) {
+    if (next_rim[h] == k_none || seen[h] != 0) continue;
+    ++circles;
+    for (uint32_t e = h; seen[e] == 0; e = next_rim[e]) seen[e] = 1;
+  }
+  const long euler =
+      static_cast<long>(fans) - static_cast<long>(edges) + static_cast<long>(triangles);
+  return euler == 2 * static_cast<long>(components) - static_cast<long>(circles) ? nullptr
+                                                                                 : "Euler";
+}
+
 const char* check_mesh(const Truth& truth, const PolygonMesh& mesh) {
   const Scene& s = truth.scene;
   if (mesh.points.size() < s.points.size() ||
@@ -193,49 +269,49 @@ const char* check_mesh(const Truth& truth, const PolygonMesh& mesh) {
   }
   size_t piece_count = 0;
   const std::map<Edge, int> pieces = truth.pieces(&piece_count);
-  std::map<Edge, uint32_t> apex;
-  std::set<uint32_t> used;
   double area = 0.0, wished = 0.0;
   for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
     const uint32_t* v = &mesh.triangles[i];
     const Vec2 a = mesh.points[v[0]], b = mesh.points[v[1]], c = mesh.points[v[2]];
     if (!(orient2d(a, b, c) > 0.0)) return "a triangle does not turn left";
     area += cross(b - a, c - a);
-    for (int k = 0; k < 3; ++k) {
-      used.insert(v[k]);
-      if (!apex.insert({{v[k], v[(k + 1) % 3]}, v[(k + 2) % 3]}).second) return "an edge twice";
-    }
     const Vec2 middle = (1.0 / 3.0) * (a + b + c);
     const bool clear = orient2d(a, b, middle) > 0.0 && orient2d(b, c, middle) > 0.0 &&
                        orient2d(c, a, middle) > 0.0;
     if (clear && !truth.inside(middle)) return "a triangle lies outside";
   }
+  const HalfEdges half(mesh.points.size(), mesh.triangles);
+  std::vector<uint32_t> twin(half.size());
+  for (uint32_t h = 0; h < half.size(); ++h) {
+    if (half.find(half.from[h], half.to[h]) != h) return "an edge twice";
+    twin[h] = half.twin(h);
+  }
   // The area under each border edge; even-odd areas have no such formula, so inside is asked on the
   // piece's left.
   size_t rim = 0, edges = 0;
-  for (const auto& [edge, c] : apex) {
-    const Edge key = {std::min(edge.first, edge.second), std::max(edge.first, edge.second)};
-    const auto piece = pieces.find(key);
-    const auto other = apex.find({edge.second, edge.first});
+  for (uint32_t h = 0; h < half.size(); ++h) {
+    const uint32_t a = half.from[h], b = half.to[h];
+    const bool given = a < s.points.size() && b < s.points.size();
+    const auto piece = given ? pieces.find({std::min(a, b), std::max(a, b)}) : pieces.end();
     const bool divides = piece != pieces.end() && piece->second % 2 != 0;
-    if ((other == apex.end()) != divides) return "the rim is not the border";
-    if (other == apex.end()) {
+    if ((twin[h] == k_none) != divides) return "the rim is not the border";
+    if (twin[h] == k_none) {
       ++rim;
-      wished +=
-          cross(mesh.points[edge.first] - s.points[0], mesh.points[edge.second] - s.points[0]);
+      wished += cross(mesh.points[a] - s.points[0], mesh.points[b] - s.points[0]);
     }
-    if (other == apex.end() || edge.first < edge.second) ++edges;
-    if (piece != pieces.end() || other == apex.end()) continue;
-    if (incircle(mesh.points[edge.first], mesh.points[edge.second], mesh.points[c],
-                 mesh.points[other->second]) > 0.0) {
+    if (twin[h] == k_none || a < b) ++edges;
+    if (piece != pieces.end() || twin[h] == k_none) continue;
+    if (incircle(mesh.points[a], mesh.points[b], mesh.points[half.apex[h]],
+                 mesh.points[half.apex[twin[h]]]) > 0.0) {
       return "not Delaunay";
     }
   }
   size_t odd = 0;
   for (const auto& [key, count] : pieces) {
     odd += count % 2 != 0 ? 1u : 0u;
-    if (apex.count(key) == 0 && apex.count({key.second, key.first}) == 0)
+    if (half.find(key.first, key.second) == k_none && half.find(key.second, key.first) == k_none) {
       return "an edge is missing";
+    }
   }
   if (rim != odd) return "a border edge is missing";
   double scale = 0.0;
@@ -244,59 +320,9 @@ const char* check_mesh(const Truth& truth, const PolygonMesh& mesh) {
   }
   if (!(std::fabs(area - wished) <= 1e-10 * scale * scale)) return "the area is wrong";
   for (uint32_t i = 0; i < s.points.size(); ++i) {
-    if ((truth.least[i] == i) != (used.count(i) != 0)) return "a point is not in the mesh";
+    if ((truth.least[i] == i) != half.leaves(i)) return "a point is not in the mesh";
   }
-  // V - E + F of the closed triangles, corner by corner: the triangles round a vertex form fans,
-  // and each fan beyond the first at a vertex that the border touches twice would be a vertex more.
-  size_t fans = 0;
-  std::map<uint32_t, size_t> rim_edges;
-  for (const auto& [edge, c] : apex) {
-    if (apex.count({edge.second, edge.first}) == 0) ++rim_edges[edge.first];
-  }
-  for (const uint32_t v : used) fans += rim_edges.count(v) != 0 ? rim_edges[v] : 1;
-  // Each component of the inside with b border circles has V - E + F = 2 - b in this count; sum
-  // over components by union of triangles across edges.
-  std::vector<size_t> parent(mesh.triangles.size() / 3);
-  for (size_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto root = [&](size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  std::map<Edge, size_t> owner;
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    owner[{mesh.triangles[i], mesh.triangles[i % 3 == 2 ? i - 2 : i + 1]}] = i / 3;
-  }
-  std::map<Edge, Edge> next_rim;
-  for (const auto& [edge, triangle] : owner) {
-    const auto other = owner.find({edge.second, edge.first});
-    if (other != owner.end()) {
-      parent[root(triangle)] = root(other->second);
-      continue;
-    }
-    // Turn round the end within its fan to the next rim edge.
-    Edge spoke = edge;
-    for (;;) {
-      const Edge out = {spoke.second, apex.at(spoke)};
-      const auto beyond = apex.find({out.second, out.first});
-      if (beyond == apex.end()) {
-        next_rim[edge] = out;
-        break;
-      }
-      spoke = {out.second, out.first};
-    }
-  }
-  size_t components = 0, circles = 0;
-  for (size_t i = 0; i < parent.size(); ++i) components += root(i) == i ? 1u : 0u;
-  std::set<Edge> seen;
-  for (const auto& [edge, following] : next_rim) {
-    if (seen.count(edge) != 0) continue;
-    ++circles;
-    for (Edge e = edge; seen.insert(e).second;) e = next_rim.at(e);
-  }
-  const long euler = static_cast<long>(fans) - static_cast<long>(edges) +
-                     static_cast<long>(mesh.triangles.size() / 3);
-  if (euler != 2 * static_cast<long>(components) - static_cast<long>(circles)) return "Euler";
-  return nullptr;
+  return check_euler(half, twin, edges);
 }
 
 struct Counts {

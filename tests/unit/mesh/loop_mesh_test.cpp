@@ -243,7 +243,9 @@ TEST_CASE("a loop in a plane is filled exactly, facing the way of its direction"
                         {.4, 3, 0},
                         {0, 3, 0}},
                        0.1)}};
-  for (const auto& [name, loop] : loops) {
+  for (const auto& named : loops) {
+    const char* const name = named.first;
+    const Loop& loop = named.second;
     CAPTURE(name);
     double expected = 0.0;
     for (size_t i = 0; i < loop.size(); ++i) {
