@@ -1,6 +1,7 @@
 #include "network/patch_in_space.h"
 
 #include "mesh/band.h"
+#include "mesh/branches.h"
 #include "mesh/dome.h"
 #include "num/minmax.h"
 
@@ -64,6 +65,17 @@ static Status take_loop_mesh(const Border& border, double spacing, SpaceMesh* me
   return take_mesh(border, &flat, mesh);
 }
 
+// Tubes from several loops to where they meet.
+static Status take_branches(const Border& border, double spacing, SpaceMesh* mesh) {
+  Context& context = mesh->position.context();
+  mesh::LoopMesh branches(context);
+  TRY(mesh::mesh_branches(context, loops_of(border), spacing, &branches));
+  TRY(take_mesh(border, &branches, mesh));
+  if (has_needles(*mesh)) return take_loop_mesh(border, spacing, mesh);
+  return mesh::refine_loops(context, spacing, border.start.span(), &mesh->position,
+                            &mesh->triangle);
+}
+
 static Status take_band(const Border& border, double spacing, SpaceMesh* mesh) {
   Context& context = mesh->position.context();
   mesh::LoopMesh band(context);
@@ -88,11 +100,13 @@ Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mes
         spacing, smaller(k_coarser * spacing, border_length(border) / k_edges_of_coarse_border));
     const mesh::HeldCurves held = {border.size(), {}};
     bool sound = true;
-    TRY(take_loop_mesh(border, coarse, mesh));
+    TRY(border.loops() > 2 ? take_branches(border, coarse, mesh)
+                           : take_loop_mesh(border, coarse, mesh));
     TRY(raise_once(border, border.size(), mesh, &sound));
     TRY(refine_and_raise(border, held, coarse, k_coarse_rounds, mesh, &sound));
     TRY(refine_and_raise(border, held, spacing, k_fine_rounds, mesh, &sound));
     if (sound) return {};
+    if (border.loops() > 2) return take_branches(border, spacing, mesh);
   }
   return take_loop_mesh(border, spacing, mesh);
 }
