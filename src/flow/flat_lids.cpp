@@ -78,7 +78,7 @@ static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
   return {};
 }
 
-static Vec3 tangent_at(const Samples& samples, uint32_t end) {
+static Vec3 tangent_of_end(const Samples& samples, uint32_t end) {
   const uint32_t first = samples.start[end / 2], last = samples.start[end / 2 + 1] - 1;
   const uint32_t from = (end & 1) == 0 ? first : last;
   const uint32_t to = (end & 1) == 0 ? first + 1 : last - 1;
@@ -100,7 +100,7 @@ static bool runs_on(const LidSearch& search, uint32_t vertex, uint32_t end) {
 // seen along the arc, are in different walls: two on a side are enough to know.
 static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, Sheets* sheets) {
   const uint32_t v = vertex_at_end(*search->complex, *search->samples, rim_end);
-  const Vec3 tangent = tangent_at(*search->samples, rim_end);
+  const Vec3 tangent = tangent_of_end(*search->samples, rim_end);
   Vec3 first[2];
   uint32_t count[2] = {};
   for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
