@@ -11,7 +11,7 @@ static constexpr double k_beside = 1e-5;        // of the diagonal, from an edge
 static constexpr uint8_t k_most_visits = 4;
 // Of lines and samples looked at; who draws faces as dense as that gets none.
 static constexpr size_t k_most_work = size_t{1} << 26;
-static constexpr size_t k_work_per_checkpoint = size_t{1} << 17;
+static constexpr size_t k_flood_per_checkpoint = size_t{1} << 17;
 
 namespace {
 
@@ -30,7 +30,7 @@ struct FaceFlood {
   PointGrid grid;
   Array<uint32_t> curved;
   Array<Crossed> crossed;
-  size_t work = 0, next_checkpoint = k_work_per_checkpoint;
+  size_t work = 0, next_checkpoint = k_flood_per_checkpoint;
   Array<uint32_t> mark;               // of each triangle: the seed whose face it was last in
   Array<uint8_t> visits;              // of each triangle
   Array<uint32_t> member;             // the face
@@ -60,7 +60,7 @@ struct FaceFlood {
         border_edge(context) {}
   Status pause() {
     if (work <= next_checkpoint) return {};
-    next_checkpoint = work + k_work_per_checkpoint;
+    next_checkpoint = work + k_flood_per_checkpoint;
     return mark.context().checkpoint();
   }
 };

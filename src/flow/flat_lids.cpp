@@ -41,7 +41,7 @@ struct Sheets {
 
 }  // namespace
 
-static uint32_t vertex_at_end(const Complex& complex, const Samples& samples, uint32_t end) {
+static uint32_t vertex_of_end(const Complex& complex, const Samples& samples, uint32_t end) {
   const uint32_t a = end / 2;
   const uint32_t at = (end & 1) == 0 ? samples.start[a] : samples.start[a + 1] - 1;
   return complex.same_as[samples.at[at]];
@@ -51,10 +51,10 @@ static Status link_ends(const Complex& complex, const Samples& samples, ArcEnds*
   const uint32_t count = 2 * static_cast<uint32_t>(samples.start.size() - 1);
   TRY(ends->start.assign(complex.point.size() + 1, 0));
   TRY(ends->end.resize(count));
-  for (uint32_t i = 0; i < count; ++i) ++ends->start[vertex_at_end(complex, samples, i)];
+  for (uint32_t i = 0; i < count; ++i) ++ends->start[vertex_of_end(complex, samples, i)];
   starts_from_counts(ends->start.span());
   for (uint32_t i = 0; i < count; ++i) {
-    ends->end[ends->start[vertex_at_end(complex, samples, i)]++] = i;
+    ends->end[ends->start[vertex_of_end(complex, samples, i)]++] = i;
   }
   for (size_t v = ends->start.size() - 1; v > 0; --v) ends->start[v] = ends->start[v - 1];
   ends->start[0] = 0;
@@ -99,7 +99,7 @@ static bool runs_on(const LidSearch& search, uint32_t vertex, uint32_t end) {
 // Walls that curves show which leave the plane at an end of an arc. Those that leave it far apart,
 // seen along the arc, are in different walls: two on a side are enough to know.
 static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, Sheets* sheets) {
-  const uint32_t v = vertex_at_end(*search->complex, *search->samples, rim_end);
+  const uint32_t v = vertex_of_end(*search->complex, *search->samples, rim_end);
   const Vec3 tangent = tangent_of_end(*search->samples, rim_end);
   Vec3 first[2];
   uint32_t count[2] = {};
@@ -243,7 +243,7 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
   const auto each_end = [&](uint32_t f, const auto& visit) {
     for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
       for (uint32_t k = 0; k < 2; ++k) {
-        visit(vertex_at_end(complex, samples, 2 * faces.rim[i].arc + k));
+        visit(vertex_of_end(complex, samples, 2 * faces.rim[i].arc + k));
       }
     }
   };
@@ -252,7 +252,7 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
     bool tunnel = false;
     each_end(f, [&](uint32_t v) {
       for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
-        const uint32_t other = hole_at[vertex_at_end(complex, samples, search->ends.end[i] ^ 1)];
+        const uint32_t other = hole_at[vertex_of_end(complex, samples, search->ends.end[i] ^ 1)];
         tunnel = tunnel || (other != k_none && other != f);
       }
     });
