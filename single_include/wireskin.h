@@ -116,7 +116,8 @@ enum {
   WSK_ERROR_TOO_FEW_SAMPLES = 7,
   /* A coordinate or a normal is NaN. */
   WSK_ERROR_NOT_A_NUMBER = 8,
-  /* A coordinate or a normal is infinite, or the coordinates span more than a double can hold. */
+  /* A coordinate or a normal is infinite, or the coordinates span more than a double can hold, or
+     they lie more than 2^100 times what they span from the origin. */
   WSK_ERROR_INFINITE = 9,
   /* All samples of a curve are the same point. */
   WSK_ERROR_ZERO_LENGTH_CURVE = 10,
@@ -765,7 +766,22 @@ typedef struct wsk_flow_options {
   /* Non-zero: patches keep the triangles between the samples instead of being remeshed to
      wsk_options.spacing (0: that of the sampling). */
   int32_t raw;
+
+  /* For wsk_flow_build again: WSK_LIDS_... */
+  int32_t lids;
 } wsk_flow_options;
+
+/* What becomes of round ends: discs that a curve with bends bounds, with curves that leave it to
+   one side only, as those of cans, cones and domes. Balls between the curves find one end of a tube
+   or none, and drawings do not tell a tube from a can. Polygons are always faces. */
+enum {
+  /* The default: a round end is closed if it is the only one of curves that hang together; of two
+     or more those are closed that the balls close. */
+  WSK_LIDS_SINGLE = 0,
+  WSK_LIDS_ALL = 1,  /* each is closed */
+  WSK_LIDS_NONE = 2, /* only those that the balls close */
+  WSK_LIDS_COUNT = 3
+};
 
 /* As wsk_options_init. */
 WSK_API void wsk_flow_options_init(wsk_flow_options* options, size_t size);
@@ -862,6 +878,15 @@ typedef struct wsk_flow_view {
   /* Voids found worth enclosing, or as many as were asked for; fewer than that if the curves cage
      no more. betti[2] are those that the surface encloses in the end. */
   uint32_t caged_count;
+
+  double sampling; /* the greatest distance between samples that was used, in your units */
+  /* Non-zero: flat faces are so many and so dense that looking for them was given up, and all voids
+     are judged by their ratios. */
+  int32_t faces_skipped;
+  /* Of the last surface: voids of enough ratio beyond those that were looked at, which are the 200
+     of the greatest ratio and all that flat faces close. */
+  uint32_t untried_count;
+  uint32_t open_lid_count; /* likewise: round ends that are open; WSK_LIDS_ALL closes them */
 } wsk_flow_view;
 
 /* Samples the curves and finds the voids. Curves join where samples carry the same node number or
@@ -882,7 +907,8 @@ typedef struct wsk_flow_view {
  * A curve's boundary is not read, sharp curves count as having no normals. Soft curves and
  * wsk_options.soft are refused: the surface holds on to all curves. wsk_options.partial and
  * find_borders change nothing, since no patch is ever left out. `options` and `flow_options` may be
- * null (defaults). On success *flow is to be given to wsk_flow_free; it keeps the allocator of the
+ * null (defaults). A spacing coarser than the sampling coarsens patches inside only: all samples
+ * are vertices. On success *flow is to be given to wsk_flow_free; it keeps the allocator of the
  * options, not the callbacks. */
 WSK_API wsk_status wsk_flow_build(const wsk_curve* curves, size_t curve_count,
                                   const wsk_options* options, const wsk_flow_options* flow_options,
@@ -1427,6 +1453,13 @@ inline uint32_t starts_from_counts(Span<uint32_t> counts) {
   return counts.empty() ? 0 : counts[counts.size() - 1];
 }
 
+/* Undoes what filling does to starts: when each group has moved its start to its own end, which is */
+/* the next group's start, every start goes back by one group. */
+inline void shift_starts_back(Span<uint32_t> starts) {
+  for (size_t i = starts.size(); i > 1; --i) starts[i - 1] = starts[i - 2];
+  if (!starts.empty()) starts[0] = 0;
+}
+
 }  /* namespace wireskin */
 /* ======== end src/base/array.h ======== */
 
@@ -1596,11 +1629,12 @@ double greatest_component(const Vec3& a);
 Status read_position(const Rows& rows, size_t i, const Place& place, Vec3* position);
 Status read_normal(const Rows& rows, size_t i, const Place& place, Vec3* normal);
 
-/* The power of two that brings the extent of the points to one half up to one. */
+/* The power of two that brings the extent of the points to one half up to one. Fails where that is */
+/* infinite, and where the points lie more than 2^100 times as far out. */
 Status find_scale(Span<const Vec3> points, int* exponent);
 
-/* Far from the origin doubles are coarse, and what then fails does not look like it: the sentence of */
-/* such a status becomes one that says so. `spacing`: zero if it is not known yet. */
+/* Far from the origin doubles are coarse, and what then fails does not look like it: the sentence */
+/* of such a status becomes one that says so. `spacing`: zero if it is not known yet. */
 Status explain_rounding(const Status& status, Span<const Vec3> positions, double spacing);
 
 }  /* namespace wireskin::api */
@@ -1633,6 +1667,11 @@ bool is_lower_triangle(const Csc& a);
 /* y = A x for the symmetric matrix whose lower triangle is `lower`. Each column of the block is */
 /* summed in the same order whatever `columns` is. */
 void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns);
+
+/* Appends a column's entries to the rows and values of a matrix that is being gathered: `rows`, */
+/* distinct and in any order, and of each its value in `sum`, which has an entry for every row of */
+/* the matrix. */
+Status append_column(Span<const uint32_t> rows, Span<const double> sum, Csc* matrix);
 
 /* *result = the transpose of `a`. */
 Status transpose(const Csc& a, Csc* result);
@@ -2281,14 +2320,12 @@ inline uint32_t round_up_rows(uint32_t rows) {
 /* The structure of a sparse Cholesky factor as supernodes: runs of columns that share one list of */
 /* rows and are stored as one dense panel. */
 /* */
-/* In: a permuted pattern in postorder, its elimination tree and column counts. Besides the columns */
-/* that share their rows exactly, a supernode takes in its last child where that stores few zeros, */
-/* or where both are so narrow that longer panels pay for them. Invariants: the rows of supernode s */
-/* are ascending and begin with its own columns, first[s] .. first[s + 1]; its panel of values */
-/* begins at panel[s], a trapezoid (dense.h) with as many rows as round_up_rows() says, and a margin */
-/* behind the last. A panel's values above the diagonal and in the padding mean nothing. */
-/* Cost: linear in the entries and the rows listed. */
-/* */
+/* In: a permuted pattern in postorder, its elimination tree and column counts. Besides columns that */
+/* share their rows exactly, a supernode takes in its last child where that stores few zeros, or */
+/* where both are so narrow that longer panels pay for them. Invariants: the rows of supernode s */
+/* ascend and begin with its own columns, first[s] .. first[s + 1]; its panel of values begins at */
+/* panel[s], a trapezoid (dense.h) of round_up_rows() rows, and a margin behind the last. A panel's */
+/* values above the diagonal and in the padding mean nothing. Cost: linear in entries and rows. */
 /* Source: Cleve Ashcraft, Roger Grimes, "The Influence of Relaxed Supernode Partitions on the */
 /* Multifrontal Method", 1989. */
 
@@ -3052,6 +3089,11 @@ struct Complex {
 
   /* F, infinite for the outside. */
   double tet_value_of(uint32_t t) const;
+  /* The tetrahedron on one side of a triangle, or their number for the outside. */
+  uint32_t side_of(uint32_t t, uint32_t side) const {
+    const uint32_t at = triangle_side[2 * size_t{t} + side];
+    return at == k_none ? tet_count() : at;
+  }
   Span<const uint32_t> triangles_of(uint32_t e) const {
     return edge_triangle.span().part(edge_triangle_first[e],
                                      edge_triangle_first[e + 1] - edge_triangle_first[e]);
@@ -3186,22 +3228,17 @@ Status smooth_polylines(Context& context, const flow::Polylines& polylines,
 /* ======== end src/surface/flow_noise.h ======== */
 
 /* ======== begin src/flow/sample.h ======== */
-/* Points on arcs, dense enough that nothing slips between them: the samples of which the flow */
-/* complex is made. */
+/* Points on arcs, dense enough that nothing slips between them: the samples of the flow complex. */
 /* */
-/* In: arcs and the greatest step. Out: the samples, those of each arc in order, with the place on */
-/* it. Invariants: samples lie on the polylines; every node and every isolated point is a sample bit */
-/* for bit, and no given point is farther than k_given_distance steps from the segments; */
-/* at a node all arcs begin with steps of the same length; steps are at most half the distance to */
-/* the nearest other arc (its directed Hausdorff distance) down to a floor, but for those beside a */
-/* sample that moved to a given point; every segment is Gabriel, that is, no sample lies in the ball */
-/* of which it is the diameter, but for those counted as too short: below k_least_segment, or below */
-/* the floor where another curve all but coincides with it. Curves side by side get samples side by */
-/* side, so their number does not grow with the narrowness of the gap; those within k_same_curve of */
-/* each other are one as to steps, and the same samples where they coincide. Near-linear where arcs */
-/* are not all near each other. Sources: B. Sadri, K. Singh, "Flow-Complex-Based Shape */
-/* Reconstruction from 3D Curves", 2014, section 4.1; J. Ruppert, "A Delaunay Refinement Algorithm", */
-/* 1995 (shells). */
+/* In: arcs and the greatest step. Out: samples on the polylines, in order along each arc. Every */
+/* node and isolated point is one, bit for bit; no given point is farther than k_given_distance */
+/* steps from the segments; at a node all arcs begin with equal steps; steps are at most half the */
+/* distance to the nearest other arc (directed Hausdorff) down to a floor, but at given points; */
+/* every segment is Gabriel (no sample in the ball on it) but for those counted as too short. Curves */
+/* side by side get samples side by side; within k_same_curve they count as one for steps, and share */
+/* samples where they coincide. Near-linear where arcs are not all near each other. Sources: B. */
+/* Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 4.1; J. */
+/* Ruppert, "A Delaunay Refinement Algorithm", 1995 (shells). */
 
 namespace wireskin::flow {
 
@@ -3325,8 +3362,9 @@ struct FlatFaces {
   Array<Vec3> normal;               /* of each face */
   Array<uint8_t> polygon;           /* of each face: 0 for a disc */
   Array<uint32_t> rim_start;
-  Array<FaceRim> rim;    /* of each face, an arc once */
-  Array<FlatPart> part;  /* of each triangle; a line: its corners lie on one, so in no plane */
+  Array<FaceRim> rim;     /* of each face, an arc once */
+  Array<FlatPart> part;   /* of each triangle; a line: its corners lie on one, so in no plane */
+  bool given_up = false;  /* too much to look at: there are none */
 
   explicit FlatFaces(Context& context)
       : start(context),
@@ -3344,6 +3382,94 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_faces.h ======== */
+
+/* ======== begin src/flow/face_rims.h ======== */
+/* Which flat faces lie at each arc of the curves, and what is wrong with that. */
+/* */
+/* In: the flat faces. Out: for each arc its places in the faces' rims; for a set of the faces how */
+/* many of them an arc has, and whether they are two in one plane, where nothing is left to draw a */
+/* curve for. Linear. Source: a curve as the crease of two faces: G. Markowsky, M. A. Wesley, */
+/* "Fleshing Out Wire Frames", 1980. */
+
+namespace wireskin::flow {
+
+/* Inner: of no use; parting: two cells lie on its sides; dangling: not two, as a wall is missing; */
+/* hole: in a face, open to a wall. */
+enum class FaceState : uint8_t { inner, parting, dangling, hole };
+
+struct FaceRims {
+  Array<uint32_t> start, rim;  /* arc a: places rim[start[a]] .. rim[start[a + 1] - 1] */
+  Array<uint32_t> face;        /* of each place */
+  Array<FaceState> state;      /* of each face */
+
+  explicit FaceRims(Context& context)
+      : start(context), rim(context), face(context), state(context) {}
+  bool stays(uint32_t f) const {
+    return state[f] == FaceState::parting || state[f] == FaceState::dangling;
+  }
+  uint32_t arc_count() const { return static_cast<uint32_t>(start.size() - 1); }
+};
+
+Status link_rims(const FlatFaces& faces, uint32_t arcs, FaceRims* rims);
+
+struct CurveFault {
+  uint32_t faces;
+  bool flat;  /* the two faces there are */
+};
+
+/* Two faces at a curve, by their places, that lie in one plane on both sides of it. */
+bool continue_flat(const FlatFaces& faces, const StraightLines& lines, const FaceRims& rims,
+                   uint32_t i, uint32_t k);
+
+/* How many of the first faces of an arc count, and whether they are two that are flat. */
+template <typename Counts>
+CurveFault fault_of(const FlatFaces& faces, const StraightLines& lines, const FaceRims& rims,
+                    uint32_t arc, uint32_t first_faces, const Counts& counts) {
+  CurveFault fault = {0, false};
+  uint32_t at[2] = {};
+  for (uint32_t i = rims.start[arc]; i < rims.start[arc] + first_faces; ++i) {
+    const uint32_t rim = rims.rim[i];
+    if (!counts(rims.face[rim])) continue;
+    if (fault.faces < 2) at[fault.faces] = rim;
+    ++fault.faces;
+  }
+  fault.flat = fault.faces == 2 && continue_flat(faces, lines, rims, at[0], at[1]);
+  return fault;
+}
+
+template <typename Counts>
+CurveFault fault_of(const FlatFaces& faces, const StraightLines& lines, const FaceRims& rims,
+                    uint32_t arc, const Counts& counts) {
+  return fault_of(faces, lines, rims, arc, rims.start[arc + 1] - rims.start[arc], counts);
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/face_rims.h ======== */
+
+/* ======== begin src/flow/flat_lids.h ======== */
+/* Lids: flat faces that only curved walls go on from, as the ends of cans and cones. */
+/* */
+/* In: the flat faces, their rims and states. Out: states that follow from the walls that curves */
+/* show: a curve that leaves a face's rim to one side has a wall there. A curve is where two sheets */
+/* meet: a face that would be the third all round its rim is a section of the body and goes; a disc */
+/* that is the second all round is a lid and stays, if asked for. Straight curves that run on */
+/* through the plane of a polygon need it, as nothing else is drawn there. O(curves at a node) for */
+/* each arc of a rim. The rule is our own; curves as creases of two faces: G. Markowsky, M. A. */
+/* Wesley, "Fleshing Out Wire Frames", 1980. */
+
+namespace wireskin::flow {
+
+/* Which lids stay: that of a net of curves that has no other, so that a cone is whole and a tube is */
+/* as open as its balls make it; all; none. */
+enum class Lids : uint8_t { single, all, none };
+
+/* `open_lids`: the faces that are lids but were not to stay. */
+Status find_lids(Context& context, const Complex& complex, const Samples& samples,
+                 const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
+                 Array<uint32_t>* open_lids);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/flat_lids.h ======== */
 
 /* ======== begin src/flow/persistence.h ======== */
 /* The voids that growing balls round the points enclose: which triangle closes a void, which */
@@ -3368,15 +3494,15 @@ struct Void {
   bool held;     /* the creator is passed last */
 };
 
-/* When a triangle is passed: before all others; by its radius, or a little later than that, for */
-/* walls that curves hold are surer than those of about the same radius in mid-air; after those; at */
-/* last. */
-enum class Pass : uint8_t { first, by_radius, flat, late, last };
+/* When a triangle is passed: before all others, and then it is no wall of anything; before all */
+/* others; by its radius, or a little later than that, for walls that curves hold are surer than */
+/* those of about the same radius in mid-air; after those; at last. */
+enum class Pass : uint8_t { hole, first, by_radius, flat, late, last };
 
 struct Persistence {
   explicit Persistence(Context& context) : creator(context), void_of(context), voids(context) {}
 
-  Array<uint8_t> creator;   /* for each triangle 1, or 0 for a destroyer */
+  Array<uint8_t> creator;   /* for each triangle 1, or 0 for a destroyer that may be a wall */
   Array<uint32_t> void_of;  /* for each triangle its place in voids, or k_none */
   Array<Void> voids;  /* held, or of ratio > 1 + 1e-6; held first, by decreasing ratio, then creator */
 };
@@ -3393,15 +3519,12 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
 /* Solids of wireframes: which flat faces are faces of something, and which only cross its inside. */
 /* */
 /* In: the flat faces, any cycle in a plane among them. Out: for each triangle its turn in the */
-/* search for voids, and the curves that are settled. The faces cut space into cells. A face stays */
-/* if its rim needs it: a curve is where two faces make a crease, so a third face at a curve is one */
-/* too many, and two in one plane leave nothing to draw a curve for. Cells are merged, the outside */
-/* among them, the best merger first, as long as that makes the curves' faults fewer: three or more */
-/* faces count as their length, two that are flat as half as much again, none at all is not allowed. */
-/* So the floor of an attic goes, as do the lids of a hole, and the wall between two boxes in a row */
-/* stays. Faces that part cells then are passed last; likewise those of cells that curved faces */
-/* leave open, where none of their curves has too many. Near-linear. Sources: G. Markowsky, M. A. */
-/* Wesley, "Fleshing Out Wire Frames", 1980, for cells and edges; the weights are our own. */
+/* search for voids, and the curves that are settled. The faces cut space into cells, and cells are */
+/* merged where their curves need no face between (merge_cells.h): the floor of an attic goes, as do */
+/* the lids of a hole, and the wall between two boxes in a row stays. Faces that part cells then are */
+/* passed last; likewise, late, those of cells that curved faces leave open, where none of their */
+/* curves has too many, and the lids of such (flat_lids.h). Linear but for these two. Source: G. */
+/* Markowsky, M. A. Wesley, "Fleshing Out Wire Frames", 1980. */
 
 namespace wireskin::flow {
 
@@ -3412,13 +3535,17 @@ struct FlatCells {
   Array<Pass> turn;  /* of each triangle; empty where there are no faces */
   Array<Need> need;  /* of each edge of the curves, and of each chord */
   bool any_settled = false;
+  /* Lids that are left to the radii: of each the triangles in its middle, in all layers. */
+  Array<uint32_t> lid_start, lid_middle;
+  bool given_up = false;  /* on the faces */
 
-  explicit FlatCells(Context& context) : turn(context), need(context) {}
+  explicit FlatCells(Context& context)
+      : turn(context), need(context), lid_start(context), lid_middle(context) {}
 };
 
 Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
-                       FlatCells* cells);
+                       Lids lids, FlatCells* cells);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_cells.h ======== */
@@ -3474,19 +3601,16 @@ Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet
 /* ======== end src/flow/sheet.h ======== */
 
 /* ======== begin src/flow/topology.h ======== */
-/* The topological reconstruction: which voids there are, and the walls between them, bounded by */
-/* curves. */
+/* The topological reconstruction: which voids there are, and the walls between them. */
 /* */
-/* In: the complex, its voids, the curves' edges. Out: the voids chosen, and the triangles that are */
-/* left after peeling, opening of handles and removal of walls that no curve bounds. Invariants: the */
-/* walls separate exactly the chosen voids and the outside from each other; no piece of curve that */
-/* had a triangle loses its last one. Method: destroyers and chosen creators, peeled from all edges */
-/* but the curves; a void counts only if its wall ends on curves that have use for it, which */
-/* triangulations of nearly round tubes feign; voids behind flat faces, and those that wait for one */
-/* more face, count whatever their ratio; then triangles with the same void on both sides go, */
-/* greatest radius first, as far as they are not fins. O(triangles) for a void tried, near-linear */
-/* else. Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, */
-/* section 4.3 and figure 13. */
+/* In: the complex, its voids, the curves' edges. Out: the voids chosen, and the triangles left */
+/* after peeling, opening of handles and removal of walls that no curve bounds. Invariants: walls */
+/* separate exactly the chosen voids and the outside; no piece of curve that had a triangle loses */
+/* its last. A void counts if its wall ends on curves that have use for it (round tubes feign */
+/* others); those behind flat faces or waiting for one more whatever their ratio. Then triangles */
+/* with one void on both sides go, greatest radius first, unless they are fins. O(triangles) for a */
+/* void tried, near-linear else. Source: B. Sadri, K. Singh, "Flow-Complex-Based Shape */
+/* Reconstruction from 3D Curves", 2014, section 4.3 and figure 13. */
 
 namespace wireskin::flow {
 
@@ -3500,6 +3624,7 @@ struct TopologyOptions {
 
 struct Topology3 {
   Array<uint32_t> chosen;  /* places in Persistence::voids */
+  uint32_t untried = 0;    /* voids that might have been chosen, past the most that are tried */
   Sheet walls;             /* the result */
   Sheet closed;            /* before handles and open walls were removed */
   Array<uint32_t> label;   /* of each tetrahedron, and of the outside (last): its void's root */
@@ -3534,7 +3659,7 @@ Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* 
 
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
                     const FlatCells& cells, const Persistence& persistence,
-                    const TopologyOptions& options, Array<uint32_t>* chosen);
+                    const TopologyOptions& options, Array<uint32_t>* chosen, uint32_t* untried);
 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
                             const FlatCells& cells, const Persistence& persistence,
@@ -3659,6 +3784,7 @@ struct FlowOptions {
   double sampling = 0.0;
   double spacing = 0.0;
   bool bend = false;  /* the samples are of smooth curves, not corners of polylines */
+  Lids lids = Lids::single;
   ComplexOptions complex;
 };
 
@@ -3697,6 +3823,7 @@ struct Reconstruction {
   uint32_t betti[3] = {};  /* of the walls and the curves together */
   uint32_t open_patches = 0;
   uint32_t crowded_edges = 0;  /* edges of more than two triangles */
+  uint32_t open_lids = 0;      /* ends of tubes that no wall closes */
   explicit Reconstruction(Context& context) : topology(context), patches(context), bare(context) {}
 };
 
@@ -3707,19 +3834,16 @@ Status reconstruct(Context& context, const Flow& flow, const ReconstructionOptio
 /* ======== end src/flow/flow.h ======== */
 
 /* ======== begin src/flow/remesh.h ======== */
-/* One mesh of all patches, each remeshed to the wished spacing with its rim fixed, and still free */
-/* of crossings. */
+/* One mesh of all patches, each remeshed to the wished spacing, its rim fixed, free of crossings. */
 /* */
 /* In: a reconstruction. Out: vertices, first all samples, then inner ones; triangles with their */
-/* patches. Patches are cut at curves and wherever other than two triangles meet, refined by */
-/* mesh/loop_refine.h, and tested against each other exactly (crossings.h); patches that run into */
-/* each other take a smaller effort next time: no relaxation, at last no refinement, which is the */
-/* embedded complex itself; triangles of it that cross all the same, because curves all but touch, */
-/* get the complex's own, jittered points. Without spacing all patches are left as they are. Every */
-/* triangle of the walls occurs once, ears and tails in their first patch; but flat ones that */
-/* several sheets end at are left out, and each sheet goes on to the curve, unless that makes */
-/* triangles cross. Near-linear in the result. Source of the remeshing to fair patches: B. Sadri, K. */
-/* Singh, "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 5. */
+/* patches. Patches are cut at curves and at edges of other than two triangles, refined by */
+/* mesh/loop_refine.h, and tested exactly (crossings.h); those that run into each other take a */
+/* smaller effort next time: no relaxation, at last the embedded complex itself, and where curves */
+/* all but touch its own, jittered points. Without spacing all are left as they are. Every triangle */
+/* of the walls occurs once; but flat ears and tails that several sheets end at are left out, unless */
+/* that makes triangles cross. Near-linear in the result. Source: B. Sadri, K. Singh, */
+/* "Flow-Complex-Based Shape Reconstruction from 3D Curves", 2014, section 5. */
 
 namespace wireskin::flow {
 
@@ -3794,6 +3918,22 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
 
 }  /* namespace wireskin */
 /* ======== end src/surface/from_flow.h ======== */
+
+/* ======== begin src/num/minmax.h ======== */
+/* The smaller and the larger of two numbers, without the calls into libm that fmin and fmax are on */
+/* some targets. Neither number may be NaN. */
+
+namespace wireskin {
+
+inline double smaller(double a, double b) {
+  return b < a ? b : a;
+}
+inline double larger(double a, double b) {
+  return a < b ? b : a;
+}
+
+}  /* namespace wireskin */
+/* ======== end src/num/minmax.h ======== */
 
 /* ======== begin src/network/wires.h ======== */
 /* Raw curves on their way to a network: the one structure that welding, chaining, snapping and the */
@@ -4339,7 +4479,8 @@ namespace wireskin {
 inline constexpr double k_pi = 3.14159265358979323846;
 
 /* The angle of the vector (x, y) against the x axis, in radians, in [0, pi] for y >= 0. For y < 0 */
-/* the result is negative. atan2(0, 0) is 0. */
+/* the result is negative. (0, 0) has the angle 0, one that is not a number, or infinite in both */
+/* directions, has none: NaN. */
 double arc_tangent(double y, double x);
 
 /* The angle between two vectors in radians, 0 to pi, accurate for small and for straight angles. */
@@ -4671,22 +4812,6 @@ class PointGrid {
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/point_grid.h ======== */
-
-/* ======== begin src/num/minmax.h ======== */
-/* The smaller and the larger of two numbers, without the calls into libm that fmin and fmax are on */
-/* some targets. Neither number may be NaN. */
-
-namespace wireskin {
-
-inline double smaller(double a, double b) {
-  return b < a ? b : a;
-}
-inline double larger(double a, double b) {
-  return a < b ? b : a;
-}
-
-}  /* namespace wireskin */
-/* ======== end src/num/minmax.h ======== */
 
 /* ======== begin src/flow/bend_arcs.h ======== */
 /* Arcs given by few samples become the smooth curves through them, so that sheets do not merge at */
@@ -5053,6 +5178,55 @@ Status radix_sort(Context& context, Array<BitsKey>* keys);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/radix_sort.h ======== */
+
+/* ======== begin src/flow/merge_cells.h ======== */
+/* Cells between flat faces, and which of them are one: what lies between is no face of anything. */
+/* */
+/* In: the complex, its flat faces and their rims. Out: the cells, by tetrahedra and the outside; */
+/* each face's state and the cells on its sides. A curve is where two faces make a crease: a third */
+/* face at it is one too many, and two in one plane leave nothing to draw a curve for. Cells are */
+/* merged, the outside among them, the best merger first, as long as that makes the curves' faults */
+/* fewer: three or more faces count as their length, two that are flat as half as much again, none */
+/* at all is not allowed. In passes over all faces left, each with all mergers that do not touch */
+/* each other: few, but for faces round one curve, of which each may take a pass. Source: G. */
+/* Markowsky, M. A. Wesley, "Fleshing Out Wire Frames", 1980, for cells; the weights are our own. */
+
+namespace wireskin::flow {
+
+/* Union-find over tetrahedra and the outside; a root is the least of its members. */
+struct CellForest {
+  Array<uint32_t> parent;
+  Array<uint8_t> solid;  /* of each root: some tetrahedron of it is not flat */
+
+  explicit CellForest(Context& context) : parent(context), solid(context) {}
+  uint32_t root_of(uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  }
+  void join(uint32_t a, uint32_t b) {
+    a = root_of(a);
+    b = root_of(b);
+    const uint32_t low = a < b ? a : b;
+    solid[low] = static_cast<uint8_t>(solid[a] | solid[b]);
+    parent[a < b ? b : a] = low;
+  }
+};
+
+struct FaceCells {
+  CellForest forest;
+  Array<uint32_t> side;  /* of each face two cells, or k_none */
+
+  explicit FaceCells(Context& context) : forest(context), side(context) {}
+};
+
+Status find_face_cells(const Complex& complex, const FlatFaces& faces, FaceRims* rims,
+                       FaceCells* cells);
+
+Status merge_cells(Context& context, const Samples& samples, const StraightLines& lines,
+                   const FlatFaces& faces, FaceRims* rims, FaceCells* cells);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/merge_cells.h ======== */
 
 /* ======== begin src/num/expansion.h ======== */
 /* Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum, */
@@ -5458,6 +5632,24 @@ Status mesh_band(Context& context, const Loops& loops, double spacing, LoopMesh*
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/band.h ======== */
+
+/* ======== begin src/mesh/branches.h ======== */
+/* A first mesh of a patch whose loops are the ends of tubes that meet: legs of a body, branches. */
+/* */
+/* In: loops as for mesh/loop_mesh.h. Out: the same as there. A surface of little area between ends */
+/* that are far apart is lids with threads between them. So every loop whose conormals agree is */
+/* first moved along their mean, all by the same part of the way to the middle of the others, as far */
+/* as they keep a distance of about their radius; straight tubes lead there, and only what is left */
+/* between their ends is taken with little area. Loops whose conormals do not agree stay where they */
+/* are. Cost: that of mesh_loops(), and k_probes^2 distances for each pair of loops. */
+
+namespace wireskin::mesh {
+
+/* Fails as mesh_loops() does. */
+Status mesh_branches(Context& context, const Loops& loops, double spacing, LoopMesh* mesh);
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/branches.h ======== */
 
 /* ======== begin src/mesh/care.h ======== */
 /* Keeping a moving mesh good without changing its shape: intrinsic-Delaunay edge flips in space, */
@@ -6553,13 +6745,14 @@ double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, dou
 /* Which loops bound a patch together, and which pieces lie inside which patch. */
 /* */
 /* In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same */
-/* network with patches of several loops and with inner segments and points. Four rules, in this */
+/* network with patches of several loops and with inner segments and points. Five rules, in this */
 /* order, each in a file of its own; where none applies every cycle stays a patch. */
 /* 1. A component that a patch encloses in its plane joins it (group_enclosed.h). */
-/* 2. Loops that see each other along the surface join (group_sight.h). */
-/* 3. Other loops face each other over a band of little area (group_facing.h). */
-/* 4. What lies on the guessed surface of a patch joins it (group_guests.h). */
-/* Rules 1 to 3 make new patches before rule 4 looks. O(n log^2 n) and the pairs that are near. */
+/* 2. Closed curves apart from the rest are joined in pairs, with little area (group_rings.h). */
+/* 3. Loops that see each other along the surface join (group_sight.h). */
+/* 4. Other loops face each other over a band of little area (group_facing.h). */
+/* 5. What lies on the guessed surface of a patch joins it (group_guests.h). */
+/* Rules 1 to 4 make new patches before rule 5 looks. O(n log^2 n) and the pairs that are near. */
 
 namespace wireskin::network {
 
@@ -6602,6 +6795,9 @@ struct Grouping {
   Array<uint32_t> holder;      /* of each component that bounds nothing: its patch */
   Array<uint32_t> doubtful;    /* the same where another patch may be the right one */
   Array<uint8_t> ambiguous;    /* of each patch */
+  Array<uint8_t> settled;      /* of each patch: a side of a ring that no other loop is to join */
+  Array<uint32_t> closed;      /* of each component: how many patches, if it is one closed curve */
+                               /* that meets no other, else k_none */
   Array<uint8_t> passed;       /* of each vertex, zero between questions */
 
   Grouping(Context& context, const CurveVertices& of, Network* net);
@@ -6644,7 +6840,7 @@ Status join_enclosed(Grouping* g);
 /* ======== end src/network/group_enclosed.h ======== */
 
 /* ======== begin src/network/group_facing.h ======== */
-/* Rule 3 of network/group.h: loops face each other where a band between them has less area than */
+/* Rule 4 of network/group.h: loops face each other where a band between them has less area than */
 /* closing both alone would take. */
 /* */
 /* In: the loops that nothing was joined to yet, rings of boundary curves by both sides. Out: pairs */
@@ -6663,7 +6859,7 @@ Status join_facing(Grouping* g);
 /* ======== end src/network/group_facing.h ======== */
 
 /* ======== begin src/network/group_guests.h ======== */
-/* Rule 4 of network/group.h: what lies on the guessed surface of a patch joins that patch. */
+/* Rule 5 of network/group.h: what lies on the guessed surface of a patch joins that patch. */
 /* */
 /* In: what the rules before have left alone: pieces that bound nothing and are not `settled`, loops */
 /* that run clockwise round their normals, rings of boundary curves. Out: those that lie on the */
@@ -6678,6 +6874,24 @@ Status join_guests(Grouping* g, Span<const uint8_t> settled);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/group_guests.h ======== */
+
+/* ======== begin src/network/group_rings.h ======== */
+/* Rule 2 of network/group.h: closed curves that meet no other, which of their sides bound a band */
+/* together, and which a cap. */
+/* */
+/* In: what the plane has joined (network/group_enclosed.h). Every side of a ring is a loop of its */
+/* own; of a ring of boundary curves only one is to have surface. Out: sides joined in pairs so that */
+/* the areas are small in sum (network/ring_pairs.h), and sides left alone that see both loops of a */
+/* pair well joined to it. Both are settled: neither rule 3 nor rule 4 joins them again. Rings near */
+/* other curves, and rings near such ones, are left to these rules. O(n^2) in the distances of */
+/* loops, where there are rings at all, and about O(n) bands. */
+
+namespace wireskin::network {
+
+Status join_rings(Grouping* g);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_rings.h ======== */
 
 /* ======== begin src/network/group_sight.h ======== */
 /* Loops that see each other bound a patch together: the ends of tubes, a hole and what is round it, */
@@ -6714,51 +6928,6 @@ Status rebuild(Grouping* g, Array<uint32_t>* number, Array<uint8_t>* ambiguous);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/regroup.h ======== */
-
-/* ======== begin src/network/nearest_patch.h ======== */
-/* On which patch's surface a piece of the network lies that no patch encloses in a plane: the */
-/* surface is guessed from the border alone, coarsely (network/patch_in_space.h). */
-/* */
-/* In: borders, then pieces as vertices. Out: for each piece the patch that it is nearest to, if it */
-/* lies beside that surface nowhere: each vertex projects to its inside, no farther off than a share */
-/* of the root of its area, and normals agree in the mean. O(patches + pieces times triangles of */
-/* patches whose boxes they meet). Source: the rule is our own. */
-
-namespace wireskin::network {
-
-/* A guess of one patch; `number` is twice the patch's, or one more for the other side of a ring. */
-struct PatchGuess {
-  uint32_t number;
-  uint32_t first_vertex, first_triangle, triangles;
-  uint32_t rim;  /* vertices on the border */
-  double size;   /* the square root of the area */
-  Vec3 low, high;
-};
-
-struct PatchGuesses {
-  Array<PatchGuess> patch;
-  Array<Vec3> position;
-  Array<uint32_t> triangle;  /* within the patch's own vertices */
-
-  explicit PatchGuesses(Context& context) : patch(context), position(context), triangle(context) {}
-};
-
-/* A border without a surface in space adds nothing. */
-Status add_guess(const Border& border, uint32_t number, PatchGuesses* guesses);
-
-struct Piece {
-  Span<const uint32_t> vertex;
-  double farthest;      /* as a share of the patch's size */
-  double least_facing;  /* mean cosine, where normals are known */
-  uint32_t but;         /* patches 2 p and 2 p + 1 do not count, p being this; or k_none */
-};
-
-/* The place of the nearest patch in guesses->patch, k_none where there is none. */
-uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
-                       const PatchGuesses& guesses);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/nearest_patch.h ======== */
 
 /* ======== begin src/network/sight.h ======== */
 /* What the border of a patch looks at: from every place of a loop along its conormal, which points */
@@ -6830,6 +6999,13 @@ Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool 
 /* Once all loops were added. */
 Status build_sight_tree(SightMap* map);
 
+/* How the surface turns on its way from p to q: the cosines of the chord with the conormal of p and */
+/* against that of q, and of the normals when that of p is carried along. */
+struct SightTurn {
+  double chord, out, back, twist;
+};
+SightTurn turn_between(const SightPlace& p, const SightPlace& q);
+
 /* About how long the surface is from p to q; negative where they do not look at each other. */
 double way_between(const SightPlace& p, const SightPlace& q);
 
@@ -6838,6 +7014,131 @@ Sight look(SightMap* map, uint32_t i, Span<const uint8_t> hidden);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/sight.h ======== */
+
+/* ======== begin src/network/nearest_patch.h ======== */
+/* On which patch's surface a piece of the network lies that no patch encloses in a plane: the */
+/* surface is guessed from the border alone, coarsely (network/patch_in_space.h). */
+/* */
+/* In: borders, then pieces as vertices. Out: for each piece the patch that it is nearest to, if it */
+/* lies beside that surface nowhere: each vertex projects to its inside, no farther off than a share */
+/* of the root of its area, and normals agree in the mean. O(patches + pieces times triangles of */
+/* patches whose boxes they meet). Source: the rule is our own. */
+
+namespace wireskin::network {
+
+/* A guess of one patch; `number` is twice the patch's, or one more for the other side of a ring. */
+struct PatchGuess {
+  uint32_t number;
+  uint32_t first_vertex, first_triangle, triangles;
+  uint32_t rim;  /* vertices on the border */
+  double size;   /* the square root of the area */
+  Vec3 low, high;
+};
+
+struct PatchGuesses {
+  Array<PatchGuess> patch;
+  Array<Vec3> position;
+  Array<uint32_t> triangle;  /* within the patch's own vertices */
+
+  explicit PatchGuesses(Context& context) : patch(context), position(context), triangle(context) {}
+};
+
+/* A border without a surface in space adds nothing. */
+Status add_guess(const Border& border, uint32_t number, PatchGuesses* guesses);
+
+struct Piece {
+  Span<const uint32_t> vertex;
+  double farthest;      /* as a share of the patch's size */
+  double least_facing;  /* mean cosine, where normals are known */
+  uint32_t but;         /* patches 2 p and 2 p + 1 do not count, p being this; or k_none */
+};
+
+/* The place of the nearest patch in guesses->patch, k_none where there is none. */
+uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
+                       const PatchGuesses& guesses);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/nearest_patch.h ======== */
+
+/* ======== begin src/network/ring_bands.h ======== */
+/* The sides of closed curves with places round them, and how much area a band between two takes. */
+/* */
+/* In: borders of patches. Out: sides, and for each the few others between which a band is least. A */
+/* band is taken place by place round both sides, the second against the first and shifted for the */
+/* least sum; a way from place to place counts as chord 8 / ((1 + cos a) (1 + cos b) (1 + cos t)) */
+/* for its turns a and b and its twist t. The lid over a circle of area A is 2 A / (1 + m) times */
+/* (2 / (1 + m))^2 for the mean cosine m between normals and axis: so rims that bend back, walls */
+/* and lids compare by one measure. O(1) for a band, whatever the loops. */
+
+namespace wireskin::network {
+
+/* So many places of each side, evenly along its vertices. */
+inline constexpr uint32_t k_ring_places = 32;
+/* So many other sides each one keeps in mind. */
+inline constexpr uint32_t k_ring_choices = 12;
+
+struct RingSide {
+  uint32_t patch = 0;
+  uint32_t component = 0;
+  bool reversed = false;
+  double lid = 0.0;         /* the area of closing it by itself */
+  double alone = 0.0;       /* what that costs, more where it can hardly be done */
+  double cosine = 0.0;      /* at which it looks across itself then */
+  uint32_t twin = k_none;   /* the other side of a ring of boundary curves */
+  uint32_t other = k_none;  /* the other side of an untagged curve */
+  double length = 0.0;
+  Vec3 centre;
+};
+
+struct RingBand {
+  uint32_t a, b;  /* sides, a < b */
+  double cost;    /* the area, less where the sides look straight at each other */
+  double cosine;  /* between conormals and ways, in the mean at the end where it is less */
+};
+
+struct RingBands {
+  Array<RingSide> side;
+  Array<SightPlace> place;  /* k_ring_places of each side */
+  Array<RingBand> band;     /* by cost */
+
+  explicit RingBands(Context& context) : side(context), place(context), band(context) {}
+};
+
+Status add_ring_side(const Border& border, const RingSide& side, RingBands* bands);
+
+/* So many times the area of closing both sides alone a band between them may have: what goes on */
+/* straight is a tube rather than two lids. */
+inline double band_weight(double cosine) {
+  return 0.85 + 5.0 * (cosine < 0.0 ? 0.0 : cosine > 0.5 ? 0.5 : cosine);
+}
+
+/* The least band between two sides. */
+RingBand band_between(const RingBands& bands, uint32_t a, uint32_t b);
+
+/* Lists for each side its nearest others that are worth a band. */
+Status list_ring_bands(RingBands* bands);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/ring_bands.h ======== */
+
+/* ======== begin src/network/ring_pairs.h ======== */
+/* Which sides of closed curves are best joined in pairs by bands, and which are closed alone. */
+/* */
+/* In: sides (network/ring_bands.h). Out: of each side its partner or k_none, and whether another */
+/* choice has hardly more area. Bands whose sides see each other come first, the least cost first; */
+/* then partners are exchanged as long as that saves something: one more band is chosen, then the */
+/* best ones for the sides that it leaves over, a few deep. What is left over after that may bend */
+/* back to another side, as a rim does; there a side that looks across itself rather has a lid. Of a */
+/* ring of boundary curves one side has a partner at most. Cost: O(n^2) in the distances of sides, */
+/* about O(n) bands. Source: S. Lin, B. Kernighan, "An Effective Heuristic Algorithm for the */
+/* Traveling-Salesman Problem", 1973, for the exchanges. */
+
+namespace wireskin::network {
+
+Status pair_sides(RingBands* bands, Array<uint32_t>* partner, Array<uint8_t>* doubtful);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/ring_pairs.h ======== */
 
 /* ======== begin src/network/kept_parts.h ======== */
 /* The kept samples of a network, one connected component after the other: curves that share a node */
@@ -7739,6 +8040,15 @@ Status find_scale(Span<const Vec3> points, int* exponent) {
   double greatest = greatest_component(extent);
   if (greatest == 0.0) greatest = greatest_component(points[0]);
   *exponent = greatest > 0.0 ? binary_exponent(greatest) : 0;
+  /* Products of several coordinates must not overflow; where they could, rounding has left nothing */
+  /* of the shape long since. */
+  constexpr int k_most_exponent = 100;
+  const double farthest = larger(greatest_component(low), greatest_component(high));
+  if (farthest > 0.0 && binary_exponent(farthest) - *exponent > k_most_exponent) {
+    return fail(Code::infinite,
+                "the network lies more than 2^100 times its size from the origin: move it to the "
+                "origin");
+  }
   return {};
 }
 
@@ -7799,6 +8109,18 @@ void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, 
       }
     }
   }
+}
+
+Status append_column(Span<const uint32_t> rows, Span<const double> sum, Csc* matrix) {
+  const size_t first = matrix->row.size();
+  const uint32_t count = static_cast<uint32_t>(rows.size());
+  TRY(matrix->row.resize(first + count));
+  TRY(matrix->value.resize(first + count));
+  uint32_t* const row = matrix->row.data() + first;
+  double* const value = matrix->value.data() + first;
+  sort_distinct(rows.data(), count, row);
+  for (uint32_t k = 0; k < count; ++k) value[k] = sum[row[k]];
+  return {};
 }
 
 Status transpose(const Csc& a, Csc* result) {
@@ -8702,12 +9024,10 @@ Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uin
   TRY(corner->resize(triangles.size()));
   for (uint32_t v : triangles) ++(*start)[v];
   starts_from_counts(start->span());
-  /* Filling moves each start to the next vertex's; shift them back afterwards. */
   for (size_t h = 0; h < triangles.size(); ++h) {
     (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h);
   }
-  for (size_t v = vertices; v > 0; --v) (*start)[v] = (*start)[v - 1];
-  (*start)[0] = 0;
+  shift_starts_back(start->span());
   return {};
 }
 
@@ -9187,17 +9507,6 @@ static void add_to_column(uint32_t v, uint32_t row, double value, ColumnUnderWay
   column->sum[row] = before[fresh] + value;
 }
 
-static Status close_column(const ColumnUnderWay& column, sparse::Csc* matrix) {
-  const size_t first = matrix->row.size();
-  TRY(matrix->row.resize(first + column.count));
-  TRY(matrix->value.resize(first + column.count));
-  uint32_t* const row = matrix->row.data() + first;
-  double* const value = matrix->value.data() + first;
-  sort_distinct(column.row.data(), column.count, row);
-  for (uint32_t k = 0; k < column.count; ++k) value[k] = column.sum[row[k]];
-  return {};
-}
-
 Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
                            Span<const TriangleShape> shapes, sparse::Csc* laplacian) {
   Context& context = laplacian->start.context();
@@ -9241,7 +9550,8 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
       diagonal += -to_next - to_previous;
     }
     column.sum[v] = diagonal;
-    TRY(close_column(column, laplacian));
+    TRY(sparse::append_column(column.row.span().part(0, column.count), column.sum.span(),
+                              laplacian));
     if (v % 16384 == 16383) TRY(context.checkpoint());
   }
   laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());
@@ -13999,6 +14309,7 @@ static constexpr double k_beside = 1e-5;        /* of the diagonal, from an edge
 static constexpr uint8_t k_most_visits = 4;
 /* Of lines and samples looked at; who draws faces as dense as that gets none. */
 static constexpr size_t k_most_work = size_t{1} << 26;
+static constexpr size_t k_flood_per_checkpoint = size_t{1} << 17;
 
 namespace {
 
@@ -14017,7 +14328,7 @@ struct FaceFlood {
   PointGrid grid;
   Array<uint32_t> curved;
   Array<Crossed> crossed;
-  size_t work = 0;
+  size_t work = 0, next_checkpoint = k_flood_per_checkpoint;
   Array<uint32_t> mark;               /* of each triangle: the seed whose face it was last in */
   Array<uint8_t> visits;              /* of each triangle */
   Array<uint32_t> member;             /* the face */
@@ -14045,6 +14356,11 @@ struct FaceFlood {
         next(context),
         seen(context),
         border_edge(context) {}
+  Status pause() {
+    if (work <= next_checkpoint) return {};
+    next_checkpoint = work + k_flood_per_checkpoint;
+    return mark.context().checkpoint();
+  }
 };
 
 }  /* namespace */
@@ -14138,6 +14454,18 @@ static bool is_line(const Complex& complex, const CurveEdges& curves, const Stra
   return lines.common(v[0], v[1], v[2]) != k_none;
 }
 
+/* Whether a piece of curve from p to q crosses one from a to b in their plane, away from its ends. */
+static bool crosses_edge(const Plane& plane, const Vec3& a, const Vec3& b, double margin,
+                         const Vec3& p, const Vec3& q) {
+  const Vec3 along = unit(b - a);
+  const Vec3 across = cross(plane.normal, along);
+  const double at_p = dot(p - a, across), at_q = dot(q - a, across);
+  if (larger(at_p, at_q) < margin || smaller(at_p, at_q) > -margin) return false;
+  const double t = at_p / (at_p - at_q);
+  const double at = dot(p + t * (q - p) - a, along);
+  return at > margin && at < length(b - a) - margin;
+}
+
 /* Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or */
 /* along its edges. */
 static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, const Vec3& p,
@@ -14159,12 +14487,34 @@ static bool passes_through(const Complex& complex, const Plane& plane, uint32_t 
   return (to - from) * length(q - p) > margin;
 }
 
+/* The longest edge of a triangle of samples that are in a row, but on no curve that they have in */
+/* common, or 3: it has no inside to pass through, yet may reach across curves. */
+static uint32_t edge_of_sliver(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  double longest = 0.0;
+  uint32_t at = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const double size = length(complex.point[v[(k + 1) % 3]] - complex.point[v[k]]);
+    if (size > longest) at = k;
+    longest = larger(longest, size);
+  }
+  return twice_area(complex, t) > 4.0 * k_beside * complex.diagonal * longest ? 3 : at;
+}
+
+static bool reaches_across(const Complex& complex, const Plane& plane, uint32_t t, uint32_t sliver,
+                           const Vec3& p, const Vec3& q) {
+  if (sliver == 3) return passes_through(complex, plane, t, p, q);
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]],
+                      k_beside * complex.diagonal, p, q);
+}
+
 static bool near_plane(const Complex& complex, const Plane& plane, const Vec3& p) {
   return std::fabs(dot(p - plane.at, plane.normal)) <= k_flat * complex.diagonal;
 }
 
 static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_t seed, uint32_t t,
-                             FaceFlood* flood) {
+                             uint32_t sliver, FaceFlood* flood) {
   const Array<Vec3>& end = flood->line_end;
   if (flood->plane_line_of != seed) {
     flood->plane_line_of = seed;
@@ -14178,7 +14528,7 @@ static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_
   }
   flood->work += flood->plane_line.size();
   for (const uint32_t i : flood->plane_line) {
-    if (passes_through(complex, plane, t, end[i], end[i + 1])) return true;
+    if (reaches_across(complex, plane, t, sliver, end[i], end[i + 1])) return true;
   }
   return false;
 }
@@ -14186,7 +14536,7 @@ static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_
 /* An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that */
 /* of which the segment is a diameter. */
 static bool any_bend_crosses(const Complex& complex, const StraightLines& lines, const Plane& plane,
-                             uint32_t t, FaceFlood* flood) {
+                             uint32_t t, uint32_t sliver, FaceFlood* flood) {
   if (flood->curved.empty()) return false;
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
@@ -14198,7 +14548,7 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
     for (uint32_t k = flood->next_start[i]; k < flood->next_start[i + 1]; ++k) {
       const Vec3& q = complex.point[flood->next[k]];
       if (!near_plane(complex, plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
-      if (passes_through(complex, plane, t, complex.point[i], q)) return true;
+      if (reaches_across(complex, plane, t, sliver, complex.point[i], q)) return true;
     }
     return false;
   });
@@ -14209,8 +14559,9 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
 static bool is_crossed(const Complex& complex, const StraightLines& lines, const Plane& plane,
                        uint32_t seed, uint32_t t, FaceFlood* flood) {
   if (flood->crossed[t] == Crossed::unknown) {
-    const bool crossed = any_line_crosses(complex, plane, seed, t, flood) ||
-                         any_bend_crosses(complex, lines, plane, t, flood);
+    const uint32_t sliver = edge_of_sliver(complex, t);
+    const bool crossed = any_line_crosses(complex, plane, seed, t, sliver, flood) ||
+                         any_bend_crosses(complex, lines, plane, t, sliver, flood);
     flood->crossed[t] = crossed ? Crossed::yes : Crossed::no;
   }
   return flood->crossed[t] == Crossed::yes;
@@ -14246,9 +14597,11 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     return flood->member.push(t);
   };
   TRY(add(seed));
-  for (size_t i = 0; i < flood->member.size(); ++i) {
+  for (size_t i = 0; i < flood->member.size() && flood->work <= k_most_work; ++i) {
+    TRY(flood->pause());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
+      ++flood->work;
       if (on_rim(complex, curves, lines, e)) continue;
       for (const uint32_t t : complex.triangles_of(e)) {
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
@@ -14284,6 +14637,7 @@ static Status close_face(const Complex& complex, const CurveEdges& curves,
     const uint32_t t = left.back();
     left.pop();
     ++flood->work;
+    TRY(flood->pause());
     if (flood->mark[t] != seed) continue;
     if (goes_on_all_round(complex, curves, lines, *flood, plane, seed, t)) continue;
     flood->mark[t] = k_none;
@@ -14513,29 +14867,23 @@ static Status forget_faces(FlatFaces* faces) {
   faces->rim_start.clear();
   faces->rim.clear();
   for (FlatPart& part : faces->part) part = FlatPart::none;
+  faces->given_up = true;
   return {};
 }
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
-  constexpr size_t k_work_per_checkpoint = 1u << 17;
   FaceFlood flood(context);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
   TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
-  size_t next_checkpoint = k_work_per_checkpoint;
   for (const uint32_t seed : seeds) {
     if (flood.visits[seed] != 0) continue;
     const Plane plane = plane_of(complex, seed);
     if (is_crossed(complex, lines, plane, seed, seed, &flood)) continue;
     TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
-    flood.work += flood.member.size();
     if (flood.work > k_most_work) return forget_faces(faces);
-    if (flood.work > next_checkpoint) {
-      TRY(context.checkpoint());
-      next_checkpoint = flood.work + k_work_per_checkpoint;
-    }
     TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
     TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
@@ -14550,6 +14898,347 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_faces.cpp ======== */
+
+/* ======== begin src/flow/face_rims.cpp ======== */
+namespace wireskin::flow {
+
+Status link_rims(const FlatFaces& faces, uint32_t arcs, FaceRims* rims) {
+  TRY(rims->start.assign(size_t{arcs} + 1, 0));
+  TRY(rims->rim.resize(faces.rim.size()));
+  TRY(rims->face.resize(faces.rim.size()));
+  TRY(rims->state.assign(faces.size(), FaceState::inner));
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+      rims->face[i] = f;
+      ++rims->start[faces.rim[i].arc];
+    }
+  }
+  starts_from_counts(rims->start.span());
+  for (uint32_t i = 0; i < faces.rim.size(); ++i) {
+    rims->rim[rims->start[faces.rim[i].arc]++] = i;
+  }
+  for (size_t a = arcs; a > 0; --a) rims->start[a] = rims->start[a - 1];
+  rims->start[0] = 0;
+  return {};
+}
+
+bool continue_flat(const FlatFaces& faces, const StraightLines& lines, const FaceRims& rims,
+                   uint32_t i, uint32_t k) {
+  const Vec3& a = faces.normal[rims.face[i]];
+  const Vec3& b = faces.normal[rims.face[k]];
+  if (std::fabs(dot(a, b)) < k_same_line) return false;
+  return !lines.is_straight(faces.rim[i].arc) || dot(faces.rim[i].into, faces.rim[k].into) < 0.0;
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/face_rims.cpp ======== */
+
+/* ======== begin src/flow/flat_lids.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_off_plane = 3.0 * k_flat;  /* of the diagonal */
+static constexpr double k_sideways = 0.05;           /* sine of the angle between two faces' planes */
+static constexpr double k_same_wall = 0.7;           /* cosine of the angle between curves in it */
+static constexpr double k_look_along = 0.1;          /* of the diagonal */
+
+namespace {
+
+/* The ends of arcs at each vertex of the complex. */
+struct ArcEnds {
+  Array<uint32_t> start, end;  /* an end: twice the arc, and one for its last sample */
+
+  explicit ArcEnds(Context& context) : start(context), end(context) {}
+};
+
+struct LidSearch {
+  const Complex* complex;
+  const Samples* samples;
+  const StraightLines* lines;
+  const FlatFaces* faces;
+  FaceRims* rims;
+  ArcEnds ends;
+  size_t work = 0;
+
+  explicit LidSearch(Context& context) : ends(context) {}
+};
+
+/* What goes on from a curve, as one face at it sees that. */
+struct Sheets {
+  uint32_t above = 0, below = 0, within = 0;
+  bool through = false;  /* straight on from above to below */
+  bool flat = false;     /* some of it */
+
+  uint32_t count() const { return 1 + above + below + within; }
+};
+
+}  /* namespace */
+
+static uint32_t vertex_of_end(const Complex& complex, const Samples& samples, uint32_t end) {
+  const uint32_t a = end / 2;
+  const uint32_t at = (end & 1) == 0 ? samples.start[a] : samples.start[a + 1] - 1;
+  return complex.same_as[samples.at[at]];
+}
+
+static Status link_ends(const Complex& complex, const Samples& samples, ArcEnds* ends) {
+  const uint32_t count = 2 * static_cast<uint32_t>(samples.start.size() - 1);
+  TRY(ends->start.assign(complex.point.size() + 1, 0));
+  TRY(ends->end.resize(count));
+  for (uint32_t i = 0; i < count; ++i) ++ends->start[vertex_of_end(complex, samples, i)];
+  starts_from_counts(ends->start.span());
+  for (uint32_t i = 0; i < count; ++i) {
+    ends->end[ends->start[vertex_of_end(complex, samples, i)]++] = i;
+  }
+  for (size_t v = ends->start.size() - 1; v > 0; --v) ends->start[v] = ends->start[v - 1];
+  ends->start[0] = 0;
+  return {};
+}
+
+/* Where an arc leaves a plane through its end, seen from there; zero where it stays for a while. */
+static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
+  const Samples& samples = *search->samples;
+  const double diagonal = search->complex->diagonal;
+  const uint32_t first = samples.start[end / 2], last = samples.start[end / 2 + 1] - 1;
+  const bool forward = (end & 1) == 0;
+  const uint32_t from = forward ? first : last;
+  for (uint32_t k = 1; k <= last - first; ++k) {
+    const uint32_t i = forward ? first + k : last - k;
+    const Vec3 to = samples.position[samples.at[i]] - samples.position[samples.at[from]];
+    ++search->work;
+    if (std::fabs(dot(to, normal)) > k_off_plane * diagonal) return to;
+    if (std::fabs(samples.along[i] - samples.along[from]) > k_look_along * diagonal) break;
+  }
+  return {};
+}
+
+static Vec3 tangent_of_end(const Samples& samples, uint32_t end) {
+  const uint32_t first = samples.start[end / 2], last = samples.start[end / 2 + 1] - 1;
+  const uint32_t from = (end & 1) == 0 ? first : last;
+  const uint32_t to = (end & 1) == 0 ? first + 1 : last - 1;
+  return unit(samples.position[samples.at[to]] - samples.position[samples.at[from]]);
+}
+
+/* Whether a straight curve that ends at the node goes on there. */
+static bool runs_on(const LidSearch& search, uint32_t vertex, uint32_t end) {
+  const uint32_t line = search.lines->line_of[end / 2];
+  if (line == k_none) return false;
+  for (uint32_t i = search.ends.start[vertex]; i < search.ends.start[vertex + 1]; ++i) {
+    const uint32_t other = search.ends.end[i];
+    if (other / 2 != end / 2 && search.lines->line_of[other / 2] == line) return true;
+  }
+  return false;
+}
+
+/* Walls that curves show which leave the plane at an end of an arc. Those that leave it far apart, */
+/* seen along the arc, are in different walls: two on a side are enough to know. */
+static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, Sheets* sheets) {
+  const uint32_t v = vertex_of_end(*search->complex, *search->samples, rim_end);
+  const Vec3 tangent = tangent_of_end(*search->samples, rim_end);
+  Vec3 first[2];
+  uint32_t count[2] = {};
+  for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
+    const uint32_t end = search->ends.end[i];
+    if (end / 2 == rim_end / 2) continue;
+    const Vec3 across = unit(reject(leaving(search, end, normal), tangent));
+    if (dot(across, across) == 0.0) continue;
+    const uint32_t side = dot(across, normal) > 0.0 ? 0 : 1;
+    if (side == 0) sheets->through = sheets->through || runs_on(*search, v, end);
+    if (count[side] == 0) {
+      first[side] = across;
+      count[side] = 1;
+    } else if (dot(first[side], across) < k_same_wall) {
+      count[side] = 2;
+    }
+  }
+  if (count[0] > sheets->above) sheets->above = count[0];
+  if (count[1] > sheets->below) sheets->below = count[1];
+}
+
+/* Other flat faces at the same arc. */
+static Sheets faces_beside(LidSearch* search, uint32_t rim, const Vec3& normal) {
+  const FlatFaces& faces = *search->faces;
+  const uint32_t arc = faces.rim[rim].arc;
+  Sheets sheets;
+  uint32_t up = k_none, down = k_none;
+  for (uint32_t i = search->rims->start[arc]; i < search->rims->start[arc + 1]; ++i) {
+    const uint32_t other = search->rims->rim[i];
+    const uint32_t face = search->rims->face[other];
+    ++search->work;
+    if (other == rim || !search->rims->stays(face)) continue;
+    sheets.flat = true;
+    const double lean = dot(faces.rim[other].into, normal);
+    if (std::fabs(lean) < k_sideways) {
+      ++sheets.within;
+    } else if (lean > 0.0) {
+      ++sheets.above;
+      up = face;
+    } else {
+      ++sheets.below;
+      down = face;
+    }
+  }
+  if (up != k_none && down != k_none) {
+    sheets.through = std::fabs(dot(faces.normal[up], faces.normal[down])) > k_same_line;
+  }
+  return sheets;
+}
+
+/* A wall is flat or shown by curves, maybe both. */
+static Sheets sheets_at(LidSearch* search, uint32_t rim) {
+  const Vec3& normal = search->faces->normal[search->rims->face[rim]];
+  const uint32_t arc = search->faces->rim[rim].arc;
+  Sheets sheets = faces_beside(search, rim, normal);
+  for (uint32_t k = 0; k < 2; ++k) add_walls(search, 2 * arc + k, normal, &sheets);
+  return sheets;
+}
+
+struct RimFacts {
+  bool crowded_all_round = true, crowded = false, walled = false;
+  bool hole = true;     /* all round a face in its plane goes on, and one wall */
+  bool section = true;  /* all round there are walls on both sides */
+};
+
+static RimFacts look_round(LidSearch* search, uint32_t face) {
+  const FlatFaces& faces = *search->faces;
+  const bool polygon = faces.polygon[face] != 0;
+  RimFacts facts;
+  for (uint32_t i = faces.rim_start[face]; i < faces.rim_start[face + 1]; ++i) {
+    const Sheets sheets = sheets_at(search, i);
+    const bool crowded = sheets.count() > 2 && !(polygon && (sheets.through || sheets.flat));
+    const uint32_t walls = sheets.above + sheets.below;
+    facts.crowded = facts.crowded || crowded;
+    facts.crowded_all_round = facts.crowded_all_round && crowded;
+    facts.walled = facts.walled || (walls == 1 && sheets.within == 0);
+    facts.hole = facts.hole && walls == 1 && sheets.within == 1;
+    facts.section = facts.section && sheets.above > 0 && sheets.below > 0;
+  }
+  return facts;
+}
+
+static uint32_t root_of_net(Span<uint32_t> parent, uint32_t a) {
+  while (parent[a] != a) a = parent[a] = parent[parent[a]];
+  return a;
+}
+
+/* Arcs that hang together, each by the least of them. */
+static Status find_nets(const ArcEnds& ends, uint32_t arcs, Array<uint32_t>* net) {
+  TRY(net->resize(arcs));
+  for (uint32_t a = 0; a < arcs; ++a) (*net)[a] = a;
+  for (size_t v = 0; v + 1 < ends.start.size(); ++v) {
+    for (uint32_t i = ends.start[v]; i + 1 < ends.start[v + 1]; ++i) {
+      const uint32_t a = root_of_net(net->span(), ends.end[i] / 2);
+      const uint32_t b = root_of_net(net->span(), ends.end[i + 1] / 2);
+      (*net)[a < b ? b : a] = a < b ? a : b;
+    }
+  }
+  for (uint32_t a = 0; a < arcs; ++a) (*net)[a] = root_of_net(net->span(), a);
+  return {};
+}
+
+/* What discs turn out to be. */
+struct Discs {
+  Array<uint32_t> lid, hole, section;
+
+  explicit Discs(Context& context) : lid(context), hole(context), section(context) {}
+};
+
+/* Sections of what has a lid are in the way of its void: they are open. */
+static Status keep_lids(Context& context, const LidSearch& search, const Discs& discs, Lids which,
+                        Array<uint32_t>* open_lids) {
+  const FlatFaces& faces = *search.faces;
+  const uint32_t arcs = search.rims->arc_count();
+  Array<uint32_t> net(context), count(context);
+  TRY(find_nets(search.ends, arcs, &net));
+  TRY(count.assign(arcs, 0));
+  const auto net_of = [&](uint32_t face) { return net[faces.rim[faces.rim_start[face]].arc]; };
+  const auto stay = [&](uint32_t n) {
+    return count[n] > 0 && (which == Lids::all || (which == Lids::single && count[n] == 1));
+  };
+  for (const uint32_t f : discs.lid) ++count[net_of(f)];
+  for (const uint32_t f : discs.lid) {
+    if (stay(net_of(f))) search.rims->state[f] = FaceState::dangling;
+    if (!stay(net_of(f))) TRY(open_lids->push(f));
+  }
+  for (const uint32_t f : discs.section) {
+    if (stay(net_of(f))) search.rims->state[f] = FaceState::hole;
+  }
+  return {};
+}
+
+/* Holes that a curve joins to another one stay as they are: walls that do not bulge with a tunnel */
+/* leave gaps at its ends, and the ends' discs are surer. */
+static Status open_holes(Context& context, LidSearch* search, Span<const uint32_t> holes) {
+  const Complex& complex = *search->complex;
+  const Samples& samples = *search->samples;
+  const FlatFaces& faces = *search->faces;
+  Array<uint32_t> hole_at(context);
+  TRY(hole_at.assign(complex.point.size(), k_none));
+  const auto each_end = [&](uint32_t f, const auto& visit) {
+    for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+      for (uint32_t k = 0; k < 2; ++k) {
+        visit(vertex_of_end(complex, samples, 2 * faces.rim[i].arc + k));
+      }
+    }
+  };
+  for (const uint32_t f : holes) each_end(f, [&](uint32_t v) { hole_at[v] = f; });
+  for (const uint32_t f : holes) {
+    bool tunnel = false;
+    each_end(f, [&](uint32_t v) {
+      for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
+        const uint32_t other = hole_at[vertex_of_end(complex, samples, search->ends.end[i] ^ 1)];
+        tunnel = tunnel || (other != k_none && other != f);
+      }
+    });
+    const bool goes_on = sheets_at(search, faces.rim_start[f]).within == 1;
+    if (!tunnel && goes_on) search->rims->state[f] = FaceState::hole;
+  }
+  return {};
+}
+
+Status find_lids(Context& context, const Complex& complex, const Samples& samples,
+                 const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
+                 Array<uint32_t>* open_lids) {
+  constexpr size_t k_work_per_checkpoint = 1u << 17;
+  LidSearch search(context);
+  Discs discs(context);
+  Array<uint8_t> is_disc(context);
+  search.complex = &complex;
+  search.samples = &samples;
+  search.lines = &lines;
+  search.faces = &faces;
+  search.rims = rims;
+  TRY(link_ends(complex, samples, &search.ends));
+  TRY(is_disc.assign(faces.size(), 0));
+  /* Discs count as sheets, too, until they turn out to be sections. */
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    if (faces.polygon[f] != 0) continue;
+    is_disc[f] = 1;
+    rims->state[f] = FaceState::dangling;
+  }
+  for (uint32_t pass = 0; pass < 2; ++pass) {
+    for (uint32_t f = 0; f < faces.size(); ++f) {
+      if (rims->state[f] != FaceState::dangling || (pass == 1 && is_disc[f] == 0)) continue;
+      const RimFacts facts = look_round(&search, f);
+      if (pass == 0 && facts.crowded_all_round) {
+        rims->state[f] = FaceState::inner;
+        if (is_disc[f] != 0 && facts.hole) TRY(discs.hole.push(f));
+        if (is_disc[f] != 0 && facts.section) TRY(discs.section.push(f));
+      } else if (pass == 1 && facts.walled && !facts.crowded) {
+        TRY(discs.lid.push(f));
+      }
+      if (search.work < k_work_per_checkpoint) continue;
+      search.work = 0;
+      TRY(context.checkpoint());
+    }
+  }
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    if (is_disc[f] != 0) rims->state[f] = FaceState::inner;
+  }
+  TRY(keep_lids(context, search, discs, which, open_lids));
+  return open_holes(context, &search, discs.hole.span());
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/flat_lids.cpp ======== */
 
 /* ======== begin src/flow/persistence.cpp ======== */
 namespace wireskin::flow {
@@ -14591,7 +15280,8 @@ static uint64_t descending_bits(double value) {
 }
 
 static bool is_in_turn(Pass pass, Pass now) {
-  return pass == now || (pass == Pass::flat && now == Pass::by_radius);
+  return pass == now || (pass == Pass::flat && now == Pass::by_radius) ||
+         (pass == Pass::hole && now == Pass::first);
 }
 
 /* By their turn, then decreasing value, then number. */
@@ -14661,14 +15351,14 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
   for (size_t i = 0; i < order.size(); ++i) {
     if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
     const uint32_t t = order[i];
-    const uint32_t a = complex.triangle_side[2 * t];
-    const uint32_t b = complex.triangle_side[2 * t + 1];
-    uint32_t low = voids.root_of(a == k_none ? outside : a);
-    uint32_t high = voids.root_of(b == k_none ? outside : b);
+    uint32_t low = voids.root_of(complex.side_of(t, 0));
+    uint32_t high = voids.root_of(complex.side_of(t, 1));
+    const bool hole = !turn.empty() && turn[t] == Pass::hole;
+    if (hole) persistence->creator[t] = 1;
     if (low == high) continue;
     if (lower_maximum(complex, voids.maximum[high], voids.maximum[low])) swap_values(low, high);
     persistence->creator[t] = 1;
-    maximum_of[t] = voids.maximum[low];
+    if (!hole) maximum_of[t] = voids.maximum[low];
     voids.parent[low] = high;
   }
   return list_voids(complex, maximum_of.span(), turn, persistence);
@@ -14680,329 +15370,86 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
 /* ======== begin src/flow/flat_cells.cpp ======== */
 namespace wireskin::flow {
 
-static constexpr double k_cost_of_flat = 1.5;  /* of a curve, where one face too many costs 1 */
-
-namespace {
-
-enum class FaceState : uint8_t { inner, parting, dangling };
-
-/* Union-find over tetrahedra and the outside; a root is the least of its members. */
-struct CellForest {
-  Array<uint32_t> parent;
-  Array<uint8_t> solid;  /* of each root: some tetrahedron of it is not flat */
-
-  explicit CellForest(Context& context) : parent(context), solid(context) {}
-  uint32_t root_of(uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-  void join(uint32_t a, uint32_t b) {
-    a = root_of(a);
-    b = root_of(b);
-    const uint32_t low = a < b ? a : b;
-    solid[low] = static_cast<uint8_t>(solid[a] | solid[b]);
-    parent[a < b ? b : a] = low;
-  }
-};
-
-/* The faces between two cells; what it would gain to merge these. */
-struct CellPair {
-  uint32_t low, high;  /* roots */
-  uint32_t first, last;
-  double gain;
-};
-
-struct FacePlace {
-  uint32_t low, high, face;
-};
-
-struct Merging {
-  const StraightLines* lines;
-  CellForest forest;
-  Array<uint32_t> side;                /* of each face two cells */
-  Array<FaceState> state;              /* of each face */
-  Array<uint32_t> arc_start, arc_rim;  /* for each arc its places in FlatFaces::rim */
-  Array<uint32_t> face_of_rim;
-  Array<double> arc_length;
-  Array<FacePlace> place;
-  Array<CellPair> pair;
-  Array<uint32_t> arc_stamp;
-  Array<uint8_t> touched;  /* of each cell, in this pass */
-
-  Merging(Context& context, const StraightLines& straight)
-      : lines(&straight),
-        forest(context),
-        side(context),
-        state(context),
-        arc_start(context),
-        arc_rim(context),
-        face_of_rim(context),
-        arc_length(context),
-        place(context),
-        pair(context),
-        arc_stamp(context),
-        touched(context) {}
-};
-
-struct CurveFault {
-  uint32_t faces;
-  bool flat;  /* the two faces there are */
-};
-
-}  /* namespace */
-
-static uint32_t cell_side(const Complex& complex, uint32_t triangle, uint32_t side) {
-  const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
-  return t == k_none ? complex.tet_count() : t;
-}
-
-static Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
-}
-
-/* Lower over its largest face than two layers of a flat face can be. */
-static bool is_flat_tet(const Complex& complex, uint32_t t) {
-  double largest = 0.0;
-  for (uint32_t k = 0; k < 4; ++k) {
-    const Vec3 n = cross_of_triangle(complex, complex.tet_triangle[4 * size_t{t} + k]);
-    largest = larger(largest, dot(n, n));
-  }
-  const uint32_t* const v = &complex.tet[4 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  const double six =
-      dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
-  return six <= 2.0 * k_flat * complex.diagonal * std::sqrt(largest);
-}
-
-/* Cells between faces; what is flat all through, between the layers of a face, joins the cell */
-/* beside it. */
-static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces,
-                                  CellForest* forest) {
-  const uint32_t outside = complex.tet_count();
-  TRY(forest->parent.resize(size_t{outside} + 1));
-  TRY(forest->solid.assign(size_t{outside} + 1, 0));
-  for (uint32_t i = 0; i <= outside; ++i) {
-    forest->parent[i] = i;
-    forest->solid[i] = i == outside || !is_flat_tet(complex, i);
-  }
-  Array<uint32_t> separating(forest->parent.context());
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (faces.part[t] == FlatPart::polygon || faces.part[t] == FlatPart::line) {
-      TRY(separating.push(t));
-    } else {
-      forest->join(cell_side(complex, t, 0), cell_side(complex, t, 1));
-    }
-  }
-  sort(separating.span(), [&](uint32_t a, uint32_t b) {
-    const double fa = complex.triangle_value[a], fb = complex.triangle_value[b];
-    return fa != fb ? fa > fb : a > b;
-  });
-  for (const uint32_t t : separating) {
-    const uint32_t a = forest->root_of(cell_side(complex, t, 0));
-    const uint32_t b = forest->root_of(cell_side(complex, t, 1));
-    if (forest->solid[a] == 0 || forest->solid[b] == 0) forest->join(a, b);
-  }
-  return {};
-}
-
-/* The cells before and behind each face, as its largest triangle between two cells says. */
-static Status find_face_sides(const Complex& complex, const FlatFaces& faces, Merging* merging) {
-  CellForest& forest = merging->forest;
-  TRY(merging->side.resize(2 * size_t{faces.size()}));
-  TRY(merging->state.resize(faces.size()));
-  for (uint32_t f = 0; f < faces.size(); ++f) {
-    double largest = 0.0;
-    uint32_t* const side = &merging->side[2 * size_t{f}];
-    side[0] = side[1] = k_none;
-    merging->state[f] = FaceState::inner;
-    if (faces.polygon[f] == 0) continue;
-    for (uint32_t i = faces.start[f]; i < faces.start[f + 1]; ++i) {
-      const uint32_t t = faces.triangle[i];
-      const uint32_t a = forest.root_of(cell_side(complex, t, 0));
-      const uint32_t b = forest.root_of(cell_side(complex, t, 1));
-      const Vec3 n = cross_of_triangle(complex, t);
-      if (a == b || !(dot(n, n) > largest)) continue;
-      largest = dot(n, n);
-      const bool up = dot(n, faces.normal[f]) > 0.0;
-      side[0] = up ? b : a;
-      side[1] = up ? a : b;
-    }
-    merging->state[f] = side[0] == k_none ? FaceState::dangling : FaceState::parting;
-  }
-  return {};
-}
-
-static Status link_arcs(const Samples& samples, const FlatFaces& faces, Merging* merging) {
-  const size_t arcs = samples.start.size() - 1;
-  TRY(merging->arc_start.assign(arcs + 1, 0));
-  TRY(merging->arc_rim.resize(faces.rim.size()));
-  TRY(merging->face_of_rim.resize(faces.rim.size()));
-  TRY(merging->arc_length.resize(arcs));
-  TRY(merging->arc_stamp.assign(arcs, k_none));
-  for (uint32_t a = 0; a < arcs; ++a) {
-    merging->arc_length[a] = samples.along[samples.start[a + 1] - 1];
-  }
-  for (uint32_t f = 0; f < faces.size(); ++f) {
-    for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
-      merging->face_of_rim[i] = f;
-      ++merging->arc_start[faces.rim[i].arc];
-    }
-  }
-  starts_from_counts(merging->arc_start.span());
-  for (uint32_t i = 0; i < faces.rim.size(); ++i) {
-    merging->arc_rim[merging->arc_start[faces.rim[i].arc]++] = i;
-  }
-  for (size_t a = arcs; a > 0; --a) merging->arc_start[a] = merging->arc_start[a - 1];
-  merging->arc_start[0] = 0;
-  return {};
-}
-
-/* Two faces at a curve that lie in one plane, on both sides of it. */
-static bool continue_flat(const FlatFaces& faces, const Merging& merging, uint32_t i, uint32_t k) {
-  const Vec3& a = faces.normal[merging.face_of_rim[i]];
-  const Vec3& b = faces.normal[merging.face_of_rim[k]];
-  if (std::fabs(dot(a, b)) < k_same_line) return false;
-  return !merging.lines->is_straight(faces.rim[i].arc) ||
-         dot(faces.rim[i].into, faces.rim[k].into) < 0.0;
-}
-
-/* How many of the faces at a curve count, and whether they are two that are flat. */
-template <typename Counts>
-static CurveFault fault_of(const FlatFaces& faces, const Merging& merging, uint32_t arc,
-                           const Counts& counts) {
-  CurveFault fault = {0, false};
-  uint32_t at[2] = {};
-  for (uint32_t i = merging.arc_start[arc]; i < merging.arc_start[arc + 1]; ++i) {
-    const uint32_t rim = merging.arc_rim[i];
-    if (!counts(merging.face_of_rim[rim])) continue;
-    if (fault.faces < 2) at[fault.faces] = rim;
-    ++fault.faces;
-  }
-  fault.flat = fault.faces == 2 && continue_flat(faces, merging, at[0], at[1]);
-  return fault;
-}
-
-static double cost_of(const CurveFault& fault) {
-  return fault.faces > 2 ? 1.0 : fault.flat ? k_cost_of_flat : 0.0;
-}
-
-/* What the curves gain if the cells on both sides of these faces become one; below zero if one */
-/* would have no faces left. */
-static double gain_of(const FlatFaces& faces, const CellPair& pair, Merging* merging) {
-  double gain = 0.0;
-  const auto parts = [&](uint32_t f) { return merging->state[f] == FaceState::parting; };
-  const auto remains = [&](uint32_t f) {
-    if (!parts(f)) return false;
-    const uint32_t a = merging->forest.root_of(merging->side[2 * size_t{f}]);
-    const uint32_t b = merging->forest.root_of(merging->side[2 * size_t{f} + 1]);
-    return (a < b ? a : b) != pair.low || (a < b ? b : a) != pair.high;
-  };
-  for (uint32_t p = pair.first; p < pair.last; ++p) {
-    const uint32_t f = merging->place[p].face;
-    for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
-      const uint32_t arc = faces.rim[i].arc;
-      if (merging->arc_stamp[arc] == pair.first) continue;
-      merging->arc_stamp[arc] = pair.first;
-      const CurveFault now = fault_of(faces, *merging, arc, parts);
-      const CurveFault then = fault_of(faces, *merging, arc, remains);
-      if (then.faces < 2 && then.faces < now.faces) return -1.0;
-      gain += merging->arc_length[arc] * (cost_of(now) - cost_of(then));
-    }
-  }
-  return gain;
-}
-
-/* The pairs of cells that faces part, each with the faces between them. */
-static Status list_pairs(const FlatFaces& faces, Merging* merging) {
-  merging->place.clear();
-  merging->pair.clear();
-  for (uint32_t f = 0; f < faces.size(); ++f) {
-    if (merging->state[f] != FaceState::parting) continue;
-    const uint32_t a = merging->forest.root_of(merging->side[2 * size_t{f}]);
-    const uint32_t b = merging->forest.root_of(merging->side[2 * size_t{f} + 1]);
-    if (a == b) {
-      merging->state[f] = FaceState::inner;
-      continue;
-    }
-    TRY(merging->place.push({a < b ? a : b, a < b ? b : a, f}));
-  }
-  sort(merging->place.span(), [](const FacePlace& a, const FacePlace& b) {
-    if (a.low != b.low) return a.low < b.low;
-    return a.high != b.high ? a.high < b.high : a.face < b.face;
-  });
-  for (uint32_t i = 0; i < merging->place.size(); ++i) {
-    const FacePlace& p = merging->place[i];
-    if (!merging->pair.empty() && merging->pair.back().low == p.low &&
-        merging->pair.back().high == p.high) {
-      merging->pair.back().last = i + 1;
-    } else {
-      TRY(merging->pair.push({p.low, p.high, i, i + 1, 0.0}));
-    }
-  }
-  return {};
-}
-
-/* In passes; a cell takes part in one merger a pass, for that changes what others would gain. */
-static Status merge_cells(Context& context, const FlatFaces& faces, Merging* merging) {
-  for (bool any = true; any;) {
-    any = false;
-    TRY(context.checkpoint());
-    TRY(list_pairs(faces, merging));
-    for (uint32_t& stamp : merging->arc_stamp) stamp = k_none;
-    for (CellPair& pair : merging->pair) {
-      pair.gain = gain_of(faces, pair, merging);
-      merging->touched[pair.low] = merging->touched[pair.high] = 0;
-    }
-    sort(merging->pair.span(), [](const CellPair& a, const CellPair& b) {
-      return a.gain != b.gain ? a.gain > b.gain : a.first < b.first;
-    });
-    for (const CellPair& pair : merging->pair) {
-      if (!(pair.gain > 0.0)) break;
-      if (merging->touched[pair.low] != 0 || merging->touched[pair.high] != 0) continue;
-      merging->touched[pair.low] = merging->touched[pair.high] = 1;
-      merging->forest.join(pair.low, pair.high);
-      any = true;
-    }
-  }
-  return {};
-}
-
 /* Those that part no cells, as a curved face is missing, but have no rival at any of their curves. */
-static Status keep_dangling(const FlatFaces& faces, Merging* merging) {
-  Array<uint8_t> crowded(merging->arc_stamp.context());
-  const auto counts = [&](uint32_t f) { return merging->state[f] != FaceState::inner; };
-  TRY(crowded.resize(merging->arc_length.size()));
+static Status keep_dangling(const FlatFaces& faces, const StraightLines& lines, FaceRims* rims) {
+  Array<uint8_t> crowded(rims->start.context());
+  const auto counts = [&](uint32_t f) { return rims->stays(f); };
+  TRY(crowded.resize(rims->arc_count()));
   for (uint32_t a = 0; a < crowded.size(); ++a) {
-    crowded[a] = fault_of(faces, *merging, a, counts).faces > 2;
+    crowded[a] = fault_of(faces, lines, *rims, a, counts).faces > 2;
   }
   for (uint32_t i = 0; i < faces.rim.size(); ++i) {
-    const uint32_t f = merging->face_of_rim[i];
-    if (merging->state[f] == FaceState::dangling && crowded[faces.rim[i].arc] != 0) {
-      merging->state[f] = FaceState::inner;
+    const uint32_t f = rims->face[i];
+    if (rims->state[f] == FaceState::dangling && crowded[faces.rim[i].arc] != 0) {
+      rims->state[f] = FaceState::inner;
     }
   }
   return {};
 }
 
-static Status set_turns(const Complex& complex, const FlatFaces& faces, Merging* merging,
-                        Array<Pass>* turn) {
+static bool covers(const Complex& complex, uint32_t t, const Vec3& normal, const Vec3& p) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
+  const double ab = dot(cross(b - a, p - a), normal), bc = dot(cross(c - b, p - b), normal),
+               ca = dot(cross(a - c, p - c), normal);
+  return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
+}
+
+/* The triangles of a disc where its largest one is, in all layers. */
+template <typename Visit>
+static void each_in_middle(const Complex& complex, const FlatFaces& faces, uint32_t f,
+                           const Visit& visit) {
+  const Span<const uint32_t> disc =
+      faces.triangle.span().part(faces.start[f], faces.start[f + 1] - faces.start[f]);
+  double largest = 0.0;
+  Vec3 middle;
+  for (const uint32_t t : disc) {
+    const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+    const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
+    const Vec3 n = cross(b - a, c - a);
+    if (!(dot(n, n) > largest)) continue;
+    largest = dot(n, n);
+    middle = (1.0 / 3.0) * (a + b + c);
+  }
+  for (const uint32_t t : disc) {
+    if (covers(complex, t, faces.normal[f], middle)) visit(t);
+  }
+}
+
+static Status list_open_lids(const Complex& complex, const FlatFaces& faces,
+                             Span<const uint32_t> lids, FlatCells* cells) {
+  Status status;
+  TRY(cells->lid_start.push(0));
+  for (const uint32_t f : lids) {
+    each_in_middle(complex, faces, f, [&](uint32_t t) {
+      if (status.ok()) status = cells->lid_middle.push(t);
+    });
+    TRY(status);
+    TRY(cells->lid_start.push(static_cast<uint32_t>(cells->lid_middle.size())));
+  }
+  return {};
+}
+
+static Status set_turns(const Complex& complex, const FlatFaces& faces, const FaceRims& rims,
+                        FaceCells* cells, Array<Pass>* turn) {
   TRY(turn->assign(complex.triangle_count(), Pass::by_radius));
   for (uint32_t f = 0; f < faces.size(); ++f) {
-    const FaceState state = merging->state[f];
-    const uint32_t* const side = &merging->side[2 * size_t{f}];
+    const FaceState state = rims.state[f];
+    const uint32_t* const side = &cells->side[2 * size_t{f}];
     const bool merged = state == FaceState::inner && side[0] != k_none;
     const Pass pass = merged ? Pass::first : state == FaceState::dangling ? Pass::late : Pass::flat;
     for (uint32_t i = faces.start[f]; i < faces.start[f + 1]; ++i) {
       (*turn)[faces.triangle[i]] = pass;
     }
+    /* Walls that do not bulge with a hole's rim end on triangles in its plane: these stay. */
+    if (state != FaceState::hole) continue;
+    each_in_middle(complex, faces, f, [&](uint32_t t) { (*turn)[t] = Pass::hole; });
   }
   /* Whatever parts two cells now, lines along curves among it. */
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (faces.part[t] == FlatPart::none || faces.part[t] == FlatPart::disc) continue;
-    const uint32_t a = merging->forest.root_of(cell_side(complex, t, 0));
-    const uint32_t b = merging->forest.root_of(cell_side(complex, t, 1));
+    const uint32_t a = cells->forest.root_of(complex.side_of(t, 0));
+    const uint32_t b = cells->forest.root_of(complex.side_of(t, 1));
     if (a != b) (*turn)[t] = Pass::last;
   }
   return {};
@@ -15011,11 +15458,11 @@ static Status set_turns(const Complex& complex, const FlatFaces& faces, Merging*
 /* Marks the edges of curves where two faces that stay make a crease, or one waits for another, and */
 /* the chords over them. */
 static void mark_needs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const FlatFaces& faces, const Merging& merging, Span<Need> need,
-                       bool* any_settled) {
-  const auto stays = [&](uint32_t f) { return merging.state[f] != FaceState::inner; };
-  for (uint32_t a = 0; a < merging.arc_length.size(); ++a) {
-    const CurveFault fault = fault_of(faces, merging, a, stays);
+                       const StraightLines& lines, const FlatFaces& faces, const FaceRims& rims,
+                       Span<Need> need, bool* any_settled) {
+  const auto stays = [&](uint32_t f) { return rims.stays(f); };
+  for (uint32_t a = 0; a < rims.arc_count(); ++a) {
+    const CurveFault fault = fault_of(faces, lines, rims, a, stays);
     if (fault.faces == 0 || fault.flat) continue;
     *any_settled = *any_settled || fault.faces > 1;
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
@@ -15033,19 +15480,25 @@ static void mark_needs(const Complex& complex, const Samples& samples, const Cur
 
 Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
-                       FlatCells* cells) {
+                       Lids lids, FlatCells* cells) {
   cells->turn.clear();
+  cells->any_settled = false;
+  cells->lid_start.clear();
+  cells->lid_middle.clear();
+  cells->given_up = faces.given_up;
   TRY(cells->need.assign(complex.edge_count(), Need::open));
   if (faces.size() == 0) return {};
-  Merging merging(context, lines);
-  TRY(find_cells_of_faces(complex, faces, &merging.forest));
-  TRY(find_face_sides(complex, faces, &merging));
-  TRY(link_arcs(samples, faces, &merging));
-  TRY(merging.touched.assign(merging.forest.parent.size(), 0));
-  TRY(merge_cells(context, faces, &merging));
-  TRY(keep_dangling(faces, &merging));
-  TRY(set_turns(complex, faces, &merging, &cells->turn));
-  mark_needs(complex, samples, curves, faces, merging, cells->need.span(), &cells->any_settled);
+  FaceRims rims(context);
+  FaceCells between(context);
+  Array<uint32_t> open_lids(context);
+  TRY(link_rims(faces, static_cast<uint32_t>(samples.start.size() - 1), &rims));
+  TRY(find_face_cells(complex, faces, &rims, &between));
+  TRY(merge_cells(context, samples, lines, faces, &rims, &between));
+  TRY(keep_dangling(faces, lines, &rims));
+  TRY(find_lids(context, complex, samples, lines, faces, lids, &rims, &open_lids));
+  TRY(list_open_lids(complex, faces, open_lids.span(), cells));
+  TRY(set_turns(complex, faces, rims, &between, &cells->turn));
+  mark_needs(complex, samples, curves, lines, faces, rims, cells->need.span(), &cells->any_settled);
   return {};
 }
 
@@ -15171,11 +15624,6 @@ static constexpr double k_loose_share = 0.1;
 /* Of a void that curves wait for: above the noise of rounding. */
 static constexpr double k_least_wanted = 1.0005;
 
-static uint32_t side_of(const Complex& complex, uint32_t triangle, uint32_t side) {
-  const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
-  return t == k_none ? complex.tet_count() : t;
-}
-
 static uint32_t find_label(Span<uint32_t> label, uint32_t i) {
   while (label[i] != i) i = label[i] = label[label[i]];
   return i;
@@ -15187,8 +15635,8 @@ Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* 
   for (uint32_t i = 0; i <= outside; ++i) (*label)[i] = i;
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (sheet.in[t] != 0) continue;
-    const uint32_t a = find_label(label->span(), side_of(complex, t, 0));
-    const uint32_t b = find_label(label->span(), side_of(complex, t, 1));
+    const uint32_t a = find_label(label->span(), complex.side_of(t, 0));
+    const uint32_t b = find_label(label->span(), complex.side_of(t, 1));
     if (a < b) (*label)[b] = a;
     if (b < a) (*label)[a] = b;
   }
@@ -15329,17 +15777,21 @@ static Status try_void(const Complex& complex, const CurveEdges& curves, const F
 /* All that hold; down to a lesser ratio those that curves wait for, if any do. */
 static Status try_voids(Context& context, const Complex& complex, const CurveEdges& curves,
                         const FlatCells& cells, const Persistence& persistence, double least_ratio,
-                        size_t wished, Array<Choice>* choices, Array<uint32_t>* unbounded) {
+                        size_t wished, Array<Choice>* choices, Array<uint32_t>* unbounded,
+                        uint32_t* untried) {
   VoidTrial trial(context);
   uint32_t tries = 0;
   bool waiting = false;
+  *untried = 0;
   for (const Need n : cells.need) waiting = waiting || n == Need::waiting;
   TRY(start_trial(complex, persistence, {}, &trial));
   for (uint32_t i = 0; i < persistence.voids.size() && choices->size() < wished; ++i) {
     const Void& v = persistence.voids[i];
     const bool high = v.ratio >= least_ratio;
     Verdict verdict = v.held ? Verdict::wanted : Verdict::gone;
-    if (!v.held && (high || (waiting && v.ratio >= k_least_wanted)) && tries < k_most_tries) {
+    const bool worth_it = !v.held && (high || (waiting && v.ratio >= k_least_wanted));
+    if (worth_it && tries == k_most_tries) ++*untried;
+    if (worth_it && tries < k_most_tries) {
       ++tries;
       TRY(context.checkpoint());
       TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
@@ -15375,13 +15827,13 @@ static void cut_at_gap(Array<Choice>* choices) {
 
 Status choose_voids(Context& context, const Complex& complex, const CurveEdges& curves,
                     const FlatCells& cells, const Persistence& persistence,
-                    const TopologyOptions& options, Array<uint32_t>* chosen) {
+                    const TopologyOptions& options, Array<uint32_t>* chosen, uint32_t* untried) {
   const bool automatic = options.voids < 0;
   const size_t wished = automatic ? SIZE_MAX : static_cast<size_t>(options.voids);
   Array<Choice> choices(context);
   Array<uint32_t> unbounded(context);
   TRY(try_voids(context, complex, curves, cells, persistence, automatic ? options.least_ratio : 1.0,
-                wished, &choices, &unbounded));
+                wished, &choices, &unbounded, untried));
   if (automatic) cut_at_gap(&choices);
   chosen->clear();
   for (const Choice& c : choices) TRY(chosen->push(c.place));
@@ -15398,8 +15850,8 @@ Status choose_voids(Context& context, const Complex& complex, const CurveEdges& 
 static bool may_go(const Complex& complex, const FlatCells& cells, const Topology3& topology,
                    uint32_t triangle) {
   if (!cells.turn.empty() && cells.turn[triangle] == Pass::late) return false;
-  return topology.label[side_of(complex, triangle, 0)] ==
-         topology.label[side_of(complex, triangle, 1)];
+  return topology.label[complex.side_of(triangle, 0)] ==
+         topology.label[complex.side_of(triangle, 1)];
 }
 
 /* Opens handles: triangles with one void on both sides that are part of no fin. */
@@ -15502,7 +15954,8 @@ static Status remove_open_walls(Context& context, const Complex& complex, const 
 Status reconstruct_topology(Context& context, const Complex& complex, const CurveEdges& curves,
                             const FlatCells& cells, const Persistence& persistence,
                             const TopologyOptions& options, Topology3* topology) {
-  TRY(choose_voids(context, complex, curves, cells, persistence, options, &topology->chosen));
+  TRY(choose_voids(context, complex, curves, cells, persistence, options, &topology->chosen,
+                   &topology->untried));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
@@ -15659,12 +16112,8 @@ struct TailSearch {
 /* to the curve that they should meet at. */
 static bool is_flat_tail(const Complex& complex, const TailSearch& search, uint32_t t) {
   if (search.cells.turn.empty() || search.cells.turn[t] != Pass::late) return false;
-  uint32_t label[2];
-  for (uint32_t k = 0; k < 2; ++k) {
-    const uint32_t side = complex.triangle_side[2 * size_t{t} + k];
-    label[k] = search.topology.label[side == k_none ? complex.tet_count() : side];
-  }
-  return label[0] == label[1];
+  const Array<uint32_t>& label = search.topology.label;
+  return label[complex.side_of(t, 0)] == label[complex.side_of(t, 1)];
 }
 
 /* The ear in the walls at a chord of the border, or the tail at an edge where sheets merge. */
@@ -15949,8 +16398,7 @@ static double feasibility_of(const Complex& complex, const SampleTangents& tange
 
 static uint32_t room_at(const Complex& complex, const Cells& cells, uint32_t triangle,
                         uint32_t side) {
-  const uint32_t t = complex.triangle_side[2 * size_t{triangle} + side];
-  return cells.room_of[t == k_none ? complex.tet_count() : t];
+  return cells.room_of[complex.side_of(triangle, side)];
 }
 
 /* The classes of triangles under edges that are no curve and have two of them. */
@@ -16200,7 +16648,7 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   TRY(find_straight_lines(flow->complex, flow->samples, &lines));
   TRY(find_flat_faces(context, flow->complex, flow->samples, flow->curves, lines, &faces));
   TRY(find_flat_cells(context, flow->complex, flow->samples, flow->curves, lines, faces,
-                      &flow->cells));
+                      options.lids, &flow->cells));
   return find_persistence(context, flow->complex, &flow->persistence, flow->cells.turn.span());
 }
 
@@ -16250,6 +16698,14 @@ static Status count_reconstruction(Context& context, const Flow& flow, Reconstru
     if (e != k_none && walls.degree[e] == 0) TRY(result->bare.push(i));
   }
   for (const uint32_t degree : walls.degree) result->crowded_edges += degree > 2;
+  const FlatCells& cells = flow.cells;
+  for (size_t l = 0; l + 1 < cells.lid_start.size(); ++l) {
+    bool closed = false;
+    for (uint32_t i = cells.lid_start[l]; i < cells.lid_start[l + 1]; ++i) {
+      closed = closed || walls.in[cells.lid_middle[i]] != 0;
+    }
+    result->open_lids += !closed;
+  }
   for (const PatchFacts& p : result->patches.facts) result->open_patches += p.open;
   return {};
 }
@@ -18987,7 +19443,9 @@ double arc_tangent(double y, double x) {
   constexpr SplitAngle k_half = {k_pi, 1.2246467991473532e-16};
   const double up = std::fabs(y), side = std::fabs(x);
   if (up == 0.0 && side == 0.0) return 0.0;
-  SplitAngle angle = arc_tangent_of_fraction(up <= side ? up / side : side / up);
+  const double fraction = up <= side ? up / side : side / up;
+  if (!(fraction <= 1.0)) return fraction;
+  SplitAngle angle = arc_tangent_of_fraction(fraction);
   if (up > side) angle = {k_quarter.high - angle.high, k_quarter.low - angle.low};
   if (x < 0.0) angle = {k_half.high - angle.high, k_half.low - angle.low};
   const double sum = angle.high + angle.low;
@@ -21092,6 +21550,320 @@ Status radix_sort(Context& context, Array<BitsKey>* keys) {
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/radix_sort.cpp ======== */
 
+/* ======== begin src/flow/merge_cells.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_cost_of_flat = 1.5;  /* of a curve, where one face too many costs 1 */
+
+namespace {
+
+/* The faces between two cells; what it would gain to merge these. */
+struct CellPair {
+  uint32_t low, high;  /* roots */
+  uint32_t first, last;
+  double gain;
+};
+
+struct FacePlace {
+  uint32_t low, high, face;
+};
+
+enum class CellTurn : uint8_t { free, grown, over };
+
+struct Merging {
+  Array<uint32_t> live;    /* of each arc: its parting faces, the first of its places */
+  Array<uint32_t> count;   /* of each arc: those of the pair looked at, else zero */
+  Array<uint8_t> changed;  /* of each arc, in this pass */
+  Array<FacePlace> place;
+  Array<CellPair> pair;
+  Array<uint32_t> order;
+  Array<CellTurn> turn;                       /* of each cell, in this pass */
+  Array<uint32_t> degree;                 /* of each cell: its pairs */
+  Array<uint32_t> first_pair, next_pair;  /* lists of pairs: of each cell, of both sides of a pair */
+
+  explicit Merging(Context& context)
+      : live(context),
+        count(context),
+        changed(context),
+        place(context),
+        pair(context),
+        order(context),
+        turn(context),
+        degree(context),
+        first_pair(context),
+        next_pair(context) {}
+};
+
+}  /* namespace */
+
+static Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  return cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
+}
+
+/* Lower over its largest face than two layers of a flat face can be. */
+static bool is_flat_tet(const Complex& complex, uint32_t t) {
+  double largest = 0.0;
+  for (uint32_t k = 0; k < 4; ++k) {
+    const Vec3 n = cross_of_triangle(complex, complex.tet_triangle[4 * size_t{t} + k]);
+    largest = larger(largest, dot(n, n));
+  }
+  const uint32_t* const v = &complex.tet[4 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  const double six =
+      dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
+  return six <= 2.0 * k_flat * complex.diagonal * std::sqrt(largest);
+}
+
+/* Cells between faces; what is flat all through, between the layers of a face, joins the cell */
+/* beside it. */
+static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces,
+                                  CellForest* forest) {
+  const uint32_t outside = complex.tet_count();
+  TRY(forest->parent.resize(size_t{outside} + 1));
+  TRY(forest->solid.assign(size_t{outside} + 1, 0));
+  for (uint32_t i = 0; i <= outside; ++i) {
+    forest->parent[i] = i;
+    forest->solid[i] = i == outside || !is_flat_tet(complex, i);
+  }
+  Array<uint32_t> separating(forest->parent.context());
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (faces.part[t] == FlatPart::polygon || faces.part[t] == FlatPart::line) {
+      TRY(separating.push(t));
+    } else {
+      forest->join(complex.side_of(t, 0), complex.side_of(t, 1));
+    }
+  }
+  sort(separating.span(), [&](uint32_t a, uint32_t b) {
+    const double fa = complex.triangle_value[a], fb = complex.triangle_value[b];
+    return fa != fb ? fa > fb : a > b;
+  });
+  for (const uint32_t t : separating) {
+    const uint32_t a = forest->root_of(complex.side_of(t, 0));
+    const uint32_t b = forest->root_of(complex.side_of(t, 1));
+    if (forest->solid[a] == 0 || forest->solid[b] == 0) forest->join(a, b);
+  }
+  return {};
+}
+
+/* The cells before and behind each face, as its largest triangle between two cells says. */
+static void find_face_sides(const Complex& complex, const FlatFaces& faces, FaceRims* rims,
+                            FaceCells* cells) {
+  CellForest& forest = cells->forest;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    double largest = 0.0;
+    uint32_t* const side = &cells->side[2 * size_t{f}];
+    side[0] = side[1] = k_none;
+    rims->state[f] = FaceState::inner;
+    if (faces.polygon[f] == 0) continue;
+    for (uint32_t i = faces.start[f]; i < faces.start[f + 1]; ++i) {
+      const uint32_t t = faces.triangle[i];
+      const uint32_t a = forest.root_of(complex.side_of(t, 0));
+      const uint32_t b = forest.root_of(complex.side_of(t, 1));
+      const Vec3 n = cross_of_triangle(complex, t);
+      if (a == b || !(dot(n, n) > largest)) continue;
+      largest = dot(n, n);
+      const bool up = dot(n, faces.normal[f]) > 0.0;
+      side[0] = up ? b : a;
+      side[1] = up ? a : b;
+    }
+    rims->state[f] = side[0] == k_none ? FaceState::dangling : FaceState::parting;
+  }
+}
+
+Status find_face_cells(const Complex& complex, const FlatFaces& faces, FaceRims* rims,
+                       FaceCells* cells) {
+  TRY(cells->side.resize(2 * size_t{faces.size()}));
+  TRY(find_cells_of_faces(complex, faces, &cells->forest));
+  find_face_sides(complex, faces, rims, cells);
+  return {};
+}
+
+static double cost_of(const CurveFault& fault) {
+  return fault.faces > 2 ? 1.0 : fault.flat ? k_cost_of_flat : 0.0;
+}
+
+/* What the curves gain if the cells on both sides of these faces become one; below zero if one */
+/* would have no faces left. */
+static double gain_of(const FlatFaces& faces, const StraightLines& lines, const Samples& samples,
+                      const FaceRims& rims, FaceCells* cells, const CellPair& pair,
+                      Merging* merging) {
+  double gain = 0.0;
+  bool bares = false;
+  const auto each_arc = [&](const auto& visit) {
+    for (uint32_t p = pair.first; p < pair.last; ++p) {
+      const uint32_t f = merging->place[p].face;
+      for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+        visit(faces.rim[i].arc);
+      }
+    }
+  };
+  const auto remains = [&](uint32_t f) {
+    const uint32_t a = cells->forest.root_of(cells->side[2 * size_t{f}]);
+    const uint32_t b = cells->forest.root_of(cells->side[2 * size_t{f} + 1]);
+    return (a < b ? a : b) != pair.low || (a < b ? b : a) != pair.high;
+  };
+  each_arc([&](uint32_t arc) { ++merging->count[arc]; });
+  each_arc([&](uint32_t arc) {
+    const uint32_t now = merging->live[arc], gone = merging->count[arc];
+    merging->count[arc] = 0;
+    if (gone == 0) return;
+    bares = bares || now - gone < 2;
+    /* Which faces there are matters only where two are left: then few are looked at. */
+    if (now - gone > 2) return;
+    const auto any = [](uint32_t) { return true; };
+    const CurveFault before =
+        now > 2 ? CurveFault{now, false} : fault_of(faces, lines, rims, arc, now, any);
+    const CurveFault after = fault_of(faces, lines, rims, arc, now, remains);
+    gain += samples.along[samples.start[arc + 1] - 1] * (cost_of(before) - cost_of(after));
+  });
+  return bares ? -1.0 : gain;
+}
+
+/* The pairs of cells that faces part, each with the faces between them. */
+static Status list_pairs(const FlatFaces& faces, FaceRims* rims, FaceCells* cells,
+                         Merging* merging) {
+  merging->place.clear();
+  merging->pair.clear();
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    if (rims->state[f] != FaceState::parting) continue;
+    const uint32_t a = cells->forest.root_of(cells->side[2 * size_t{f}]);
+    const uint32_t b = cells->forest.root_of(cells->side[2 * size_t{f} + 1]);
+    if (a == b) {
+      rims->state[f] = FaceState::inner;
+      continue;
+    }
+    TRY(merging->place.push({a < b ? a : b, a < b ? b : a, f}));
+  }
+  sort(merging->place.span(), [](const FacePlace& a, const FacePlace& b) {
+    if (a.low != b.low) return a.low < b.low;
+    return a.high != b.high ? a.high < b.high : a.face < b.face;
+  });
+  for (uint32_t i = 0; i < merging->place.size(); ++i) {
+    const FacePlace& p = merging->place[i];
+    if (!merging->pair.empty() && merging->pair.back().low == p.low &&
+        merging->pair.back().high == p.high) {
+      merging->pair.back().last = i + 1;
+    } else {
+      TRY(merging->pair.push({p.low, p.high, i, i + 1, 0.0}));
+    }
+  }
+  return {};
+}
+
+/* Moves the places of faces that part cells to the front of each arc's. */
+static void gather_live(FaceRims* rims, Merging* merging) {
+  for (uint32_t a = 0; a < rims->arc_count(); ++a) {
+    uint32_t& live = merging->live[a];
+    live = 0;
+    for (uint32_t i = rims->start[a]; i < rims->start[a + 1]; ++i) {
+      if (rims->state[rims->face[rims->rim[i]]] != FaceState::parting) continue;
+      swap_values(rims->rim[i], rims->rim[rims->start[a] + live++]);
+    }
+  }
+}
+
+static Status start_pass(Merging* merging) {
+  const size_t pairs = merging->pair.size();
+  TRY(merging->next_pair.resize(2 * pairs));
+  TRY(merging->order.resize(pairs));
+  for (uint8_t& c : merging->changed) c = 0;
+  for (const CellPair& p : merging->pair) {
+    const uint32_t sides[2] = {p.low, p.high};
+    for (const uint32_t cell : sides) {
+      merging->turn[cell] = CellTurn::free;
+      merging->degree[cell] = 0;
+      merging->first_pair[cell] = k_none;
+    }
+  }
+  for (uint32_t i = 0; i < pairs; ++i) {
+    merging->order[i] = i;
+    for (uint32_t k = 0; k < 2; ++k) {
+      const uint32_t cell = k == 0 ? merging->pair[i].low : merging->pair[i].high;
+      merging->next_pair[2 * size_t{i} + k] = merging->first_pair[cell];
+      merging->first_pair[cell] = 2 * i + k;
+      ++merging->degree[cell];
+    }
+  }
+  sort(merging->order.span(), [&](uint32_t i, uint32_t k) {
+    const CellPair &a = merging->pair[i], &b = merging->pair[k];
+    return a.gain != b.gain ? a.gain > b.gain : a.first < b.first;
+  });
+  return {};
+}
+
+/* Whether nothing done in this pass bears on what the merger gains: one cell has not changed, and */
+/* the other has only grown by cells that the one does not touch, at other curves. */
+static bool is_independent(const FlatFaces& faces, const CellPair& pair, const Merging& merging) {
+  const CellTurn low = merging.turn[pair.low], high = merging.turn[pair.high];
+  if (low == CellTurn::over || high == CellTurn::over) return false;
+  if (low == CellTurn::grown && high == CellTurn::grown) return false;
+  for (uint32_t p = pair.first; p < pair.last; ++p) {
+    const uint32_t f = merging.place[p].face;
+    for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+      if (merging.changed[faces.rim[i].arc] != 0) return false;
+    }
+  }
+  return true;
+}
+
+/* The cell with fewer neighbours goes into the other; what it touches waits for the next pass. */
+static void merge_pair(const FlatFaces& faces, const CellPair& pair, CellForest* forest,
+                       Merging* merging) {
+  const bool low_grown = merging->turn[pair.low] == CellTurn::grown;
+  const bool high_grown = merging->turn[pair.high] == CellTurn::grown;
+  const bool low_larger = merging->degree[pair.low] > merging->degree[pair.high];
+  const uint32_t into = low_grown || (!high_grown && low_larger) ? pair.low : pair.high;
+  const uint32_t small = into == pair.low ? pair.high : pair.low;
+  for (uint32_t at = merging->first_pair[small]; at != k_none; at = merging->next_pair[at]) {
+    const CellPair& p = merging->pair[at / 2];
+    merging->turn[(at & 1) == 0 ? p.high : p.low] = CellTurn::over;
+  }
+  merging->turn[small] = CellTurn::over;
+  merging->turn[into] = CellTurn::grown;
+  for (uint32_t p = pair.first; p < pair.last; ++p) {
+    const uint32_t f = merging->place[p].face;
+    for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+      merging->changed[faces.rim[i].arc] = 1;
+    }
+  }
+  forest->join(pair.low, pair.high);
+}
+
+Status merge_cells(Context& context, const Samples& samples, const StraightLines& lines,
+                   const FlatFaces& faces, FaceRims* rims, FaceCells* cells) {
+  Merging merging(context);
+  const size_t cell_count = cells->forest.parent.size();
+  TRY(merging.live.assign(rims->arc_count(), 0));
+  TRY(merging.count.assign(rims->arc_count(), 0));
+  TRY(merging.changed.assign(rims->arc_count(), 0));
+  TRY(merging.turn.assign(cell_count, CellTurn::free));
+  TRY(merging.degree.assign(cell_count, 0));
+  TRY(merging.first_pair.assign(cell_count, k_none));
+  for (bool any = true; any;) {
+    any = false;
+    TRY(context.checkpoint());
+    TRY(list_pairs(faces, rims, cells, &merging));
+    gather_live(rims, &merging);
+    for (CellPair& pair : merging.pair) {
+      pair.gain = gain_of(faces, lines, samples, *rims, cells, pair, &merging);
+    }
+    TRY(start_pass(&merging));
+    for (const uint32_t i : merging.order) {
+      const CellPair& pair = merging.pair[i];
+      if (!(pair.gain > 0.0)) break;
+      if (!is_independent(faces, pair, merging)) continue;
+      merge_pair(faces, pair, &cells->forest, &merging);
+      any = true;
+    }
+  }
+  return {};
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/merge_cells.cpp ======== */
+
 /* ======== begin src/flow/orient.cpp ======== */
 namespace wireskin::flow {
 
@@ -22567,6 +23339,157 @@ Status mesh_band(Context& context, const Loops& loops, double spacing, LoopMesh*
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/band.cpp ======== */
 
+/* ======== begin src/mesh/branches.cpp ======== */
+namespace wireskin::mesh {
+
+/* The mean conormal of a loop that is the end of a tube has at least this length. */
+static constexpr double k_least_agreement = 0.7;
+/* Ends stay apart by so many radii of the lesser one, seen at so many places of each. */
+static constexpr double k_radii_apart = 0.75;
+/* Ends that are nearer to each other than that, side by side, may come no nearer. */
+static constexpr double k_as_far = 0.95;
+static constexpr uint32_t k_probes_of_end = 32;
+/* Of the way to the middle of the others, and in such steps. */
+static constexpr double k_farthest_move = 0.9, k_step = 0.05;
+
+namespace {
+
+struct BranchEnd {
+  Vec3 centre;
+  Vec3 way;  /* to the middle of the others, along the conormals */
+  double radius;
+};
+
+}  /* namespace */
+
+static Vec3 mean_conormal(const Loops& loops, uint32_t l) {
+  Vec3 sum;
+  for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
+    const Vec3 along = loops.position[loops.next(l, v)] - loops.position[loops.previous(l, v)];
+    sum += unit(cross(loops.normal[v], along));
+  }
+  return (1.0 / (loops.start[l + 1] - loops.start[l])) * sum;
+}
+
+static Status take_ends(const Loops& loops, Array<BranchEnd>* ends) {
+  Vec3 all;
+  for (uint32_t l = 0; l < loops.count(); ++l) {
+    BranchEnd end = {{}, {}, 0.0};
+    const uint32_t n = loops.start[l + 1] - loops.start[l];
+    for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
+      end.centre += (1.0 / n) * loops.position[v];
+    }
+    for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
+      end.radius += length(loops.position[v] - end.centre) / n;
+    }
+    all += end.centre;
+    TRY(ends->push(end));
+  }
+  for (uint32_t l = 0; l < loops.count(); ++l) {
+    BranchEnd* end = &(*ends)[l];
+    const Vec3 conormal = mean_conormal(loops, l);
+    const Vec3 others = (1.0 / (loops.count() - 1)) * (all - end->centre);
+    const double far = dot(others - end->centre, unit(conormal));
+    if (length(conormal) > k_least_agreement && far > 0.0) end->way = far * unit(conormal);
+  }
+  return {};
+}
+
+/* Whether two ends keep their distance when moved by a part of their ways. */
+static bool are_apart(const Loops& loops, Span<const BranchEnd> ends, uint32_t a, uint32_t b,
+                      double part) {
+  const double least = k_radii_apart * smaller(ends[a].radius, ends[b].radius);
+  const Vec3 move = part * (ends[b].way - ends[a].way);
+  const uint32_t n = loops.start[a + 1] - loops.start[a], m = loops.start[b + 1] - loops.start[b];
+  bool apart = true;
+  for (uint32_t i = 0; i < k_probes_of_end; ++i) {
+    const uint32_t v = loops.start[a] + static_cast<uint32_t>(uint64_t{i} * n / k_probes_of_end);
+    for (uint32_t j = 0; j < k_probes_of_end; ++j) {
+      const uint32_t w = loops.start[b] + static_cast<uint32_t>(uint64_t{j} * m / k_probes_of_end);
+      const Vec3 before = loops.position[w] - loops.position[v];
+      const double now = length(before + move);
+      apart = apart && (now > least || now > k_as_far * length(before));
+    }
+  }
+  return apart;
+}
+
+/* How far all ends may move before the first two of them come too near. */
+static Status find_part(Context& context, const Loops& loops, Span<const BranchEnd> ends,
+                        double* part) {
+  *part = k_farthest_move;
+  for (uint32_t a = 0; a < loops.count(); ++a) {
+    for (uint32_t b = a + 1; b < loops.count(); ++b) {
+      double clear = 0.0;
+      while (clear < *part && are_apart(loops, ends, a, b, clear + k_step)) clear += k_step;
+      *part = smaller(*part, clear);
+    }
+    TRY(context.checkpoint());
+  }
+  return {};
+}
+
+/* Of each vertex of the loops the one at the end of its tube. */
+static Status move_ends(const Loops& loops, Span<const BranchEnd> ends, double part,
+                        Array<Vec3>* moved) {
+  TRY(moved->copy(loops.position));
+  for (uint32_t l = 0; l < loops.count(); ++l) {
+    for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
+      (*moved)[v] += part * ends[l].way;
+    }
+  }
+  return {};
+}
+
+static bool has_tube(const BranchEnd& end) {
+  return end.way != Vec3{};
+}
+
+/* Puts the tubes before what is between their ends. The vertices of a loop that has no tube are */
+/* those of its end. */
+static Status add_tubes(const Loops& loops, Span<const BranchEnd> ends, Span<const Vec3> moved,
+                        LoopMesh* core, LoopMesh* mesh) {
+  const uint32_t rim = static_cast<uint32_t>(loops.position.size());
+  Array<uint32_t> name(core->inner.context());
+  TRY(name.resize(rim));
+  uint32_t next = rim;
+  for (uint32_t l = 0; l < loops.count(); ++l) {
+    for (uint32_t v = loops.start[l]; v < loops.start[l + 1]; ++v) {
+      name[v] = has_tube(ends[l]) ? next++ : v;
+      if (has_tube(ends[l])) TRY(mesh->inner.push(moved[v]));
+    }
+  }
+  for (const Vec3& p : core->inner) TRY(mesh->inner.push(p));
+  for (uint32_t v : core->triangle) TRY(mesh->triangle.push(v < rim ? name[v] : next + (v - rim)));
+  for (uint32_t l = 0; l < loops.count(); ++l) {
+    for (uint32_t v = loops.start[l]; has_tube(ends[l]) && v < loops.start[l + 1]; ++v) {
+      const uint32_t w = loops.next(l, v);
+      const uint32_t added[] = {v, w, name[v], w, name[w], name[v]};
+      for (uint32_t corner : added) TRY(mesh->triangle.push(corner));
+    }
+  }
+  return {};
+}
+
+Status mesh_branches(Context& context, const Loops& loops, double spacing, LoopMesh* mesh) {
+  Array<BranchEnd> ends(context);
+  Array<Vec3> moved(context);
+  LoopMesh core(context), made(context);
+  double part = 0.0;
+  TRY(take_ends(loops, &ends));
+  TRY(find_part(context, loops, ends.span(), &part));
+  if (part == 0.0) return mesh_loops(context, loops, spacing, mesh);
+  TRY(move_ends(loops, ends.span(), part, &moved));
+  TRY(mesh_loops(context, {loops.start, moved.span(), loops.normal}, spacing, &core));
+  TRY(add_tubes(loops, ends.span(), moved.span(), &core, &made));
+  mesh->inner = static_cast<Array<Vec3>&&>(made.inner);
+  mesh->triangle = static_cast<Array<uint32_t>&&>(made.triangle);
+  return {};
+}
+
+}  /* namespace wireskin::mesh */
+/* ======== end src/mesh/branches.cpp ======== */
+
 /* ======== begin src/mesh/care.cpp ======== */
 namespace wireskin::mesh {
 
@@ -24013,17 +24936,6 @@ static Status make_room(size_t more, size_t* room, Csc* product) {
   return product->value.reserve(*room);
 }
 
-static Status append_column(const Accumulator& gathered, Csc* product) {
-  const size_t first = product->row.size();
-  TRY(product->row.resize(first + gathered.count));
-  TRY(product->value.resize(first + gathered.count));
-  uint32_t* const row = product->row.data() + first;
-  double* const value = product->value.data() + first;
-  sort_distinct(gathered.rows.data(), gathered.count, row);
-  for (uint32_t k = 0; k < gathered.count; ++k) value[k] = gathered.sum[row[k]];
-  return {};
-}
-
 Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
                         Span<const uint32_t> unknown, uint32_t unknowns, Part part, Csc* product) {
   Context& context = product->start.context();
@@ -24045,7 +24957,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
     gather_column(factors, column, j, &gathered, &work);
     TRY(make_room(gathered.count, &room, product));
     product->start[j++] = static_cast<uint32_t>(product->row.size());
-    TRY(append_column(gathered, product));
+    TRY(append_column(gathered.rows.span().part(0, gathered.count), gathered.sum.span(), product));
     TRY(pause_for_checkpoint(context, &work));
   }
   product->start[unknowns] = static_cast<uint32_t>(product->row.size());
@@ -27538,6 +28450,7 @@ Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity*
   TRY(take_components(&planes));
   TRY(find_enclosing(*network, vertices, planes.components, &planes.enclosing));
   TRY(join_enclosed(&planes));
+  TRY(join_rings(&planes));
   TRY(join_in_sight(&planes));
   TRY(join_facing(&planes));
   TRY(rebuild(&planes, &number, &ambiguous));
@@ -27578,6 +28491,8 @@ Grouping::Grouping(Context& context, const CurveVertices& of, Network* net)
       holder(context),
       doubtful(context),
       ambiguous(context),
+      settled(context),
+      closed(context),
       passed(context) {}
 
 void Grouping::join(uint32_t a, uint32_t b) {
@@ -27621,6 +28536,19 @@ static Status list_patches_at_corners(Grouping* g) {
   return {};
 }
 
+static Status find_closed_curves(Grouping* g) {
+  const Network& network = *g->network;
+  TRY(g->closed.assign(g->components.members.count(), 0));
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    uint32_t* count = &g->closed[g->component[p]];
+    const bool one_loop = network.patch_start[p + 1] == network.patch_start[p] + 1;
+    const uint32_t most = network.ring[p] ? 1 : 2;
+    const bool fits = one_loop && network.inner[p].empty() && *count < most;
+    *count = fits ? *count + 1 : k_none;
+  }
+  return {};
+}
+
 Status take_components(Grouping* g) {
   const Network& network = *g->network;
   const uint32_t patches = network.patches();
@@ -27631,6 +28559,7 @@ Status take_components(Grouping* g) {
   TRY(g->reversed.assign(patches, 0));
   TRY(g->told.assign(patches, 0));
   TRY(g->ambiguous.assign(patches, 0));
+  TRY(g->settled.assign(patches, 0));
   TRY(g->passed.assign(g->vertices.position.size(), 0));
   TRY(g->holder.assign(g->components.members.count(), k_none));
   TRY(g->doubtful.assign(g->components.members.count(), k_none));
@@ -27639,6 +28568,7 @@ Status take_components(Grouping* g) {
     g->component[p] =
         g->components.of_vertex[segment_vertex(network, g->vertices, network.cycle(p)[0] / 2, 0)];
   }
+  TRY(find_closed_curves(g));
   TRY(list_corners(g));
   return list_patches_at_corners(g);
 }
@@ -27673,6 +28603,8 @@ namespace wireskin::network {
 
 /* Pieces that face their plane less clearly are asked where they lie in space. */
 static constexpr double k_clearly_facing = 0.5;
+/* A loop whose normals face the plane less goes on out of it: a tube in a tube. */
+static constexpr double k_least_facing_of_hole = 0.2;
 
 /* Of each component the patches, ascending. */
 static Status list_patches(const Grouping& g, Lists* lists) {
@@ -27686,20 +28618,30 @@ static Status list_patches(const Grouping& g, Lists* lists) {
   return {};
 }
 
+/* Whether a closed curve in a patch of another one has surface on both sides: then more than the */
+/* plane tells where its sides belong (network/group_rings.h). */
+static bool is_ring_in_ring(const Grouping& g, uint32_t c, uint32_t outer) {
+  return g.closed[c] == 2 && g.closed[g.component[outer]] != k_none;
+}
+
 /* The patch of an enclosed component whose border runs clockwise seen from the enclosing one's */
 /* normal, and faces the same way; of several the largest. */
 static Status clockwise_patch(const Grouping& g, Span<const uint32_t> patches, const Vec3& normal,
                               uint32_t* found) {
   Border border(g.parent.context());
   double greatest = 0.0;
+  bool in_plane = true;
   *found = k_none;
   for (uint32_t p : patches) {
     TRY(border_of_patch(*g.network, g.vertices, p, &border));
     const double area = dot(vector_area(border), normal) * (g.network->ring[p] ? 1.0 : -1.0);
-    if (dot(mean_normal(border), normal) < 0.0 || !(area > greatest)) continue;
+    const double facing = dot(mean_normal(border), normal);
+    if (facing < 0.0 || !(area > greatest)) continue;
     greatest = area;
     *found = p;
+    in_plane = facing > k_least_facing_of_hole || !knows_normals(border, 0);
   }
+  if (!in_plane) *found = k_none;
   return {};
 }
 
@@ -27718,7 +28660,7 @@ Status join_enclosed(Grouping* g) {
        [&](uint32_t a, uint32_t b) { return score(a) != score(b) ? score(a) > score(b) : a < b; });
   for (uint32_t c : order) {
     const Enclosing& outer = g->enclosing[c];
-    if (g->reversed[outer.patch]) continue;
+    if (g->reversed[outer.patch] || is_ring_in_ring(*g, c, outer.patch)) continue;
     if (!g->components.bounds[c]) {
       (outer.facing < k_clearly_facing ? g->doubtful : g->holder)[c] = outer.patch;
       continue;
@@ -27761,7 +28703,7 @@ static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing
   const Network& network = *g->network;
   Border border(g->parent.context());
   for (uint32_t p = 0; p < network.patches(); ++p) {
-    if (g->root(p) != p || g->reversed[p] ||
+    if (g->root(p) != p || g->reversed[p] || g->settled[p] ||
         network.patch_start[p + 1] != network.patch_start[p] + 1)
       continue;
     TRY(border_of_patch(network, g->vertices, p, &border));
@@ -27809,7 +28751,7 @@ static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<cons
 
 namespace {
 
-/* How far rule 2 has come. */
+/* How far rule 4 has come. */
 struct Pairing {
   Array<Facing> facing;
   Array<uint8_t> joined;   /* facing */
@@ -28024,6 +28966,264 @@ Status join_guests(Grouping* g, Span<const uint8_t> settled) {
 }  /* namespace wireskin::network */
 /* ======== end src/network/group_guests.cpp ======== */
 
+/* ======== begin src/network/group_rings.cpp ======== */
+namespace wireskin::network {
+
+/* A lid whose normals point to its other side is large, not endless. */
+static constexpr double k_least_lid = 0.5;
+/* A ring of boundary curves whose normals agree less with its axis cannot be closed alone. */
+static constexpr double k_sideless = 0.02, k_no_lid = 1e3;
+/* Other curves within so many lengths of both loops may bound a patch with a ring: then the rules */
+/* that follow tell, also for the rings that are as near to that one. */
+static constexpr double k_others_reach = 1.0;
+/* A side alone joins a band if so many of its places see it, at such a cosine in the mean, and not */
+/* so much farther off than these see each other. */
+static constexpr double k_third_share = 0.5, k_third_cosine = 0.25, k_third_nearer = 1.2;
+
+namespace {
+
+/* The border of a patch from afar. */
+struct RingOutline {
+  Vec3 centre;
+  double length;
+  bool ring;  /* a side of a closed curve that meets no other */
+};
+
+struct Rings {
+  Grouping* g;
+  Array<RingOutline> outline;  /* of each patch */
+  RingBands bands;
+  Array<uint32_t> partner;  /* of each side */
+  Array<uint8_t> doubtful;  /* of each side: another choice is hardly worse */
+
+  Rings(Context& context, Grouping* grouping)
+      : g(grouping), outline(context), bands(context), partner(context), doubtful(context) {}
+};
+
+}  /* namespace */
+
+/* ---- Sides -------------------------------------------------------------------------------------- */
+
+/* Most networks have no two closed curves apart from the rest. */
+static bool has_rings(const Grouping& g) {
+  uint32_t first = k_none;
+  for (uint32_t p = 0; p < g.parent.size(); ++p) {
+    const uint32_t c = g.component[p];
+    if (g.closed[c] == k_none || !g.is_alone(p)) continue;
+    if (first != k_none && first != c) return true;
+    first = c;
+  }
+  return false;
+}
+
+static Status take_outlines(Border* border, Rings* rings) {
+  const Grouping& g = *rings->g;
+  for (uint32_t p = 0; p < g.parent.size(); ++p) {
+    TRY(border_of_patch(*g.network, g.vertices, p, border));
+    Vec3 centre;
+    for (const Vec3& x : border->position) centre += (1.0 / border->size()) * x;
+    const bool ring =
+        g.closed[g.component[p]] != k_none && border->loops() == 1 && knows_normals(*border, 0);
+    TRY(rings->outline.push({centre, border_length(*border), ring}));
+    if (p % 64 == 63) TRY(border->vertex.context().checkpoint());
+  }
+  return {};
+}
+
+/* Rings near other curves are none of our business, nor are those near such ones. */
+static Status leave_rings_near_others(Rings* rings) {
+  Array<uint32_t> others(rings->partner.context());
+  for (uint32_t p = 0; p < rings->outline.size(); ++p) {
+    if (!rings->outline[p].ring) TRY(others.push(p));
+  }
+  for (size_t i = 0; i < others.size(); ++i) {
+    const RingOutline other = rings->outline[others[i]];
+    for (uint32_t p = 0; p < rings->outline.size(); ++p) {
+      RingOutline* own = &rings->outline[p];
+      const double reach = k_others_reach * (own->length + other.length);
+      if (!own->ring || !(length(own->centre - other.centre) < reach)) continue;
+      own->ring = false;
+      TRY(others.push(p));
+    }
+    TRY(others.context().checkpoint());
+  }
+  return {};
+}
+
+static double lid_area(double area, double cosine) {
+  const double least = larger(1.0 + cosine, k_least_lid);
+  return 8.0 * area / (least * least * least);
+}
+
+static Status add_sides_of_patch(uint32_t p, Border* border, Rings* rings) {
+  const Grouping& g = *rings->g;
+  TRY(border_of_patch(*g.network, g.vertices, p, border));
+  double area = 0.0;
+  RingSide side;
+  side.patch = p;
+  side.component = g.component[p];
+  side.cosine = closing_cosine(*border, &area);
+  if (!g.network->ring[p]) {
+    side.lid = side.alone = lid_area(area, side.cosine);
+    return add_ring_side(*border, side, &rings->bands);
+  }
+  const bool sideless = std::fabs(side.cosine) < k_sideless;
+  const uint32_t own = static_cast<uint32_t>(rings->bands.side.size());
+  side.cosine = std::fabs(side.cosine);
+  side.lid = lid_area(area, side.cosine);
+  side.alone = sideless ? k_no_lid * area : side.lid;
+  for (uint32_t k = 0; k < 2; ++k) {
+    side.reversed = k != 0;
+    side.twin = own + 1 - k;
+    TRY(add_ring_side(*border, side, &rings->bands));
+  }
+  return {};
+}
+
+/* Tells the two sides of an untagged curve of each other. */
+static Status name_other_sides(Rings* rings) {
+  Array<uint32_t> first(rings->partner.context());
+  TRY(first.assign(rings->g->closed.size(), k_none));
+  for (uint32_t s = 0; s < rings->bands.side.size(); ++s) {
+    RingSide* side = &rings->bands.side[s];
+    if (side->twin != k_none) continue;
+    uint32_t* of_curve = &first[side->component];
+    if (*of_curve != k_none) {
+      side->other = *of_curve;
+      rings->bands.side[*of_curve].other = s;
+    }
+    *of_curve = s;
+  }
+  return {};
+}
+
+static Status take_sides(Rings* rings) {
+  const Grouping& g = *rings->g;
+  Border border(rings->partner.context());
+  TRY(take_outlines(&border, rings));
+  TRY(leave_rings_near_others(rings));
+  for (uint32_t p = 0; p < g.parent.size(); ++p) {
+    if (rings->outline[p].ring && g.is_alone(p)) TRY(add_sides_of_patch(p, &border, rings));
+    if (p % 64 == 63) TRY(border.vertex.context().checkpoint());
+  }
+  return name_other_sides(rings);
+}
+
+/* ---- Groups ------------------------------------------------------------------------------------- */
+
+static void choose_side(const RingSide& side, Grouping* g) {
+  if (side.twin != k_none) g->reversed[side.patch] = side.reversed;
+}
+
+static void join_partners(Rings* rings) {
+  Grouping* g = rings->g;
+  for (uint32_t s = 0; s < rings->partner.size(); ++s) {
+    const RingSide& side = rings->bands.side[s];
+    const uint32_t other = rings->partner[s];
+    if (rings->doubtful[s]) g->ambiguous[side.patch] = 1;
+    if (other != k_none || side.twin == k_none) g->settled[side.patch] = 1;
+    if (other == k_none || other < s) continue;
+    choose_side(side, g);
+    choose_side(rings->bands.side[other], g);
+    g->join(side.patch, rings->bands.side[other].patch);
+  }
+}
+
+/* The way from a place to the nearest that it sees of a side. */
+static Sight look_at_side(const RingBands& bands, const SightPlace& from, uint32_t side) {
+  Sight seen;
+  for (uint32_t j = 0; j < k_ring_places; ++j) {
+    const SightPlace& to = bands.place[side * k_ring_places + j];
+    const double way = way_between(from, to);
+    if (!(way > 0.0) || (seen.loop != k_none && way >= seen.way)) continue;
+    seen = {side * k_ring_places + j, way, turn_between(from, to).out};
+  }
+  return seen;
+}
+
+/* The cost of a side that joins a band, by what its places see of both loops, as far as those are */
+/* no nearer to each other; negative where too few places see one. */
+static double cost_of_third(const Rings& rings, uint32_t s, uint32_t one) {
+  const RingBands& bands = rings.bands;
+  const uint32_t loops[2] = {one, rings.partner[one]};
+  double sum = 0.0, cosine = 0.0, seen = 0.0;
+  for (uint32_t i = 0; i < k_ring_places; ++i) {
+    const SightPlace& from = bands.place[s * k_ring_places + i];
+    Sight best;
+    for (uint32_t k = 0; k < 2; ++k) {
+      const Sight sight = look_at_side(bands, from, loops[k]);
+      if (sight.loop == k_none || (best.loop != k_none && sight.way >= best.way)) continue;
+      const Sight back = look_at_side(bands, bands.place[sight.loop], loops[1 - k]);
+      if (back.loop == k_none || sight.way <= k_third_nearer * back.way) best = sight;
+    }
+    if (best.loop == k_none) continue;
+    seen += 1.0;
+    sum += best.way;
+    cosine += best.cosine;
+  }
+  if (seen < k_third_share * k_ring_places || cosine < k_third_cosine * seen) return -1.0;
+  return 0.5 * sum / seen * bands.side[s].length / band_weight(cosine / seen);
+}
+
+static bool has_partner(const Rings& rings, uint32_t s) {
+  const uint32_t twin = rings.bands.side[s].twin;
+  return rings.partner[s] != k_none || (twin != k_none && rings.partner[twin] != k_none);
+}
+
+/* The band that each side alone would join for the least cost; `least` begins with that of staying */
+/* alone. */
+static Status find_hosts(Rings* rings, Array<double>* least, Array<uint32_t>* host) {
+  const uint32_t sides = static_cast<uint32_t>(rings->partner.size());
+  TRY(least->resize(sides));
+  TRY(host->assign(sides, k_none));
+  for (uint32_t s = 0; s < sides; ++s) (*least)[s] = rings->bands.side[s].alone;
+  for (const RingBand& band : rings->bands.band) {
+    const uint32_t ends[2] = {band.a, band.b};
+    for (uint32_t k = 0; k < 2; ++k) {
+      const uint32_t s = ends[k], other = ends[1 - k];
+      if (has_partner(*rings, s) || rings->partner[other] == k_none) continue;
+      const double cost = cost_of_third(*rings, s, other);
+      if (cost < 0.0 || !(cost < (*least)[s])) continue;
+      (*least)[s] = cost;
+      (*host)[s] = other;
+    }
+    TRY(least->context().checkpoint());
+  }
+  return {};
+}
+
+/* Sides that are still alone join the band that they see best: legs a body, branches a trunk. */
+static Status join_thirds(Rings* rings) {
+  Grouping* g = rings->g;
+  Array<double> least(rings->partner.context());
+  Array<uint32_t> host(rings->partner.context());
+  TRY(find_hosts(rings, &least, &host));
+  for (uint32_t s = 0; s < host.size(); ++s) {
+    const RingSide& side = rings->bands.side[s];
+    if (host[s] == k_none) continue;
+    if (side.twin != k_none && host[side.twin] != k_none && least[side.twin] < least[s]) continue;
+    const uint32_t patch = rings->bands.side[host[s]].patch;
+    if (share_vertex(g, side.patch, patch)) continue;
+    choose_side(side, g);
+    g->settled[side.patch] = 1;
+    g->join(side.patch, patch);
+    if (side.twin != k_none) host[side.twin] = k_none;
+  }
+  return {};
+}
+
+Status join_rings(Grouping* g) {
+  if (!has_rings(*g)) return {};
+  Rings rings(g->parent.context(), g);
+  TRY(take_sides(&rings));
+  TRY(pair_sides(&rings.bands, &rings.partner, &rings.doubtful));
+  join_partners(&rings);
+  return join_thirds(&rings);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/group_rings.cpp ======== */
+
 /* ======== begin src/network/group_sight.cpp ======== */
 namespace wireskin::network {
 
@@ -28087,7 +29287,7 @@ struct Lookout {
 
 /* Whether a patch is a loop that looks for others. */
 static bool asks_for_others(const Grouping& g, uint32_t p, const Border& border) {
-  return !g.network->ring[p] && g.is_alone(p) && border.loops() == 1 &&
+  return !g.network->ring[p] && g.is_alone(p) && !g.settled[p] && border.loops() == 1 &&
          curvature_inside(border, 0) >= k_least_curvature && knows_normals(border, 0);
 }
 
@@ -28421,136 +29621,6 @@ Status rebuild(Grouping* g, Array<uint32_t>* number, Array<uint8_t>* ambiguous) 
 }  /* namespace wireskin::network */
 /* ======== end src/network/regroup.cpp ======== */
 
-/* ======== begin src/network/nearest_patch.cpp ======== */
-namespace wireskin::network {
-
-static constexpr uint32_t k_most_of_guess = 48;  /* vertices of a loop */
-static constexpr uint32_t k_most_piece_probes = 48;
-
-/* Every so many-th vertex of each loop. */
-static Status thin_border(const Border& border, Border* thin) {
-  TRY(thin->start.push(0));
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    const uint32_t first = border.start[l], n = border.start[l + 1] - first;
-    const uint32_t count = n < k_most_of_guess ? n : k_most_of_guess;
-    for (uint32_t k = 0; k < count; ++k) {
-      const uint32_t i = first + static_cast<uint32_t>(uint64_t{k} * n / count);
-      TRY(thin->vertex.push(border.vertex[i]));
-      TRY(thin->position.push(border.position[i]));
-      TRY(thin->normal.push(border.normal[i]));
-    }
-    TRY(thin->start.push(thin->size()));
-  }
-  return {};
-}
-
-static void measure_guess(Span<const Vec3> position, Span<const uint32_t> triangle,
-                          PatchGuess* guess) {
-  double area = 0.0;
-  guess->low = guess->high = position[0];
-  for (const Vec3& p : position) {
-    Vec3 &low = guess->low, &high = guess->high;
-    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
-    high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
-  }
-  for (size_t t = 0; t < triangle.size(); t += 3) {
-    const Vec3& a = position[triangle[t]];
-    area += 0.5 * length(cross(position[triangle[t + 1]] - a, position[triangle[t + 2]] - a));
-  }
-  guess->size = std::sqrt(area);
-}
-
-Status add_guess(const Border& border, uint32_t number, PatchGuesses* guesses) {
-  Context& context = border.vertex.context();
-  Border thin(context);
-  SpaceMesh mesh(context);
-  TRY(thin_border(border, &thin));
-  const double spacing = border_length(thin) / static_cast<double>(thin.size());
-  const Status made = mesh_border_in_space(thin, spacing, &mesh);
-  if (made.code == Code::patch_folded) return {};
-  TRY(made);
-  PatchGuess guess = {number,
-                      static_cast<uint32_t>(guesses->position.size()),
-                      static_cast<uint32_t>(guesses->triangle.size()),
-                      static_cast<uint32_t>(mesh.triangle.size()),
-                      thin.size(),
-                      0.0,
-                      Vec3{},
-                      Vec3{}};
-  measure_guess(mesh.position.span(), mesh.triangle.span(), &guess);
-  for (const Vec3& p : mesh.position) TRY(guesses->position.push(p));
-  for (uint32_t v : mesh.triangle) TRY(guesses->triangle.push(v));
-  TRY(guesses->patch.push(guess));
-  return context.checkpoint();
-}
-
-namespace {
-
-/* The place of a patch nearest to a point. */
-struct Foot {
-  double distance = DBL_MAX;
-  Vec3 normal;
-  bool on_border = false;
-};
-
-}  /* namespace */
-
-static Foot find_foot(const PatchGuesses& guesses, const PatchGuess& guess, const Vec3& p) {
-  Foot foot;
-  const Vec3* position = &guesses.position[guess.first_vertex];
-  for (uint32_t t = 0; t < guess.triangles; t += 3) {
-    const uint32_t* v = &guesses.triangle[guess.first_triangle + t];
-    const Vec3 &a = position[v[0]], &b = position[v[1]], &c = position[v[2]];
-    const Vec3 w = mesh::nearest_weights(p, a, b, c);
-    const double distance = length(w.x * a + w.y * b + w.z * c - p);
-    if (!(distance < foot.distance)) continue;
-    foot = {distance, unit(cross(b - a, c - a)), mesh::is_on_border(w, v, guess.rim)};
-  }
-  return foot;
-}
-
-static bool meets_box(const PatchGuess& guess, const Vec3& p) {
-  const double s = guess.size;
-  return p.x > guess.low.x - s && p.x < guess.high.x + s && p.y > guess.low.y - s &&
-         p.y < guess.high.y + s && p.z > guess.low.z - s && p.z < guess.high.z + s;
-}
-
-/* The greatest distance of the piece from the patch, DBL_MAX where it does not lie on it. */
-static double distance_of_piece(const CurveVertices& vertices, const Piece& piece,
-                                const PatchGuesses& guesses, const PatchGuess& guess) {
-  const size_t n = piece.vertex.size();
-  const size_t count = n < k_most_piece_probes ? n : k_most_piece_probes;
-  double greatest = 0.0, facing = 0.0, known = 0.0;
-  for (size_t k = 0; k < count; ++k) {
-    const uint32_t v = piece.vertex[k * n / count];
-    const Vec3& p = vertices.position[v];
-    if (!meets_box(guess, p)) return DBL_MAX;
-    const Foot foot = find_foot(guesses, guess, p);
-    if (foot.on_border || !(foot.distance <= piece.farthest * guess.size)) return DBL_MAX;
-    greatest = larger(greatest, foot.distance);
-    facing += dot(vertices.normal[v], foot.normal);
-    known += vertices.normal[v] != Vec3{} ? 1.0 : 0.0;
-  }
-  return facing < piece.least_facing * known ? DBL_MAX : greatest;
-}
-
-uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
-                       const PatchGuesses& guesses) {
-  uint32_t nearest = k_none;
-  double least = DBL_MAX;
-  for (uint32_t i = 0; i < guesses.patch.size(); ++i) {
-    if (guesses.patch[i].number / 2 == piece.but) continue;
-    const double distance = distance_of_piece(vertices, piece, guesses, guesses.patch[i]);
-    if (!(distance < least)) continue;
-    least = distance;
-    nearest = i;
-  }
-  return nearest;
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/nearest_patch.cpp ======== */
-
 /* ======== begin src/network/sight.cpp ======== */
 namespace wireskin::network {
 
@@ -28684,23 +29754,29 @@ Status build_sight_tree(SightMap* map) {
 
 /* ---- Looking ------------------------------------------------------------------------------------ */
 
-double way_between(const SightPlace& p, const SightPlace& q) {
+SightTurn turn_between(const SightPlace& p, const SightPlace& q) {
   const Vec3 way = q.position - p.position;
   const double chord = length(way);
-  if (chord == 0.0) return -1.0;
+  if (chord == 0.0) return {0.0, -1.0, -1.0, -1.0};
   const double out = dot(p.conormal, way) / chord, back = -dot(q.conormal, way) / chord;
-  const double least = p.loop == q.loop ? k_least_own_cosine : 0.0;
-  if (!(out > least && back > least)) return -1.0;
-  /* Along the way the conormal turns into the chord and on; the normal is carried along. */
+  /* Along the way the conormal turns into the chord and on; the normal is carried along. Who turns */
+  /* back on the spot has no axis to turn about. */
+  constexpr double k_turns_back = -0.999;
+  if (!(out > k_turns_back && back > k_turns_back)) return {chord, out, back, -1.0};
   const auto carry = [](const Vec3& n, const Vec3& from, const Vec3& to) {
     const Vec3 axis = cross(from, to);
     return dot(from, to) * n + cross(axis, n) + (dot(axis, n) / (1.0 + dot(from, to))) * axis;
   };
   const Vec3 along = (1.0 / chord) * way;
   const Vec3 carried = carry(carry(p.normal, p.conormal, along), along, -q.conormal);
-  const double twist = dot(carried, q.normal);
-  if (!(twist > 0.0)) return -1.0;
-  return chord * 8.0 / ((1.0 + out) * (1.0 + back) * (1.0 + twist));
+  return {chord, out, back, dot(carried, q.normal)};
+}
+
+double way_between(const SightPlace& p, const SightPlace& q) {
+  const SightTurn t = turn_between(p, q);
+  const double least = p.loop == q.loop ? k_least_own_cosine : 0.0;
+  if (!(t.out > least && t.back > least && t.twist > 0.0)) return -1.0;
+  return t.chord * 8.0 / ((1.0 + t.out) * (1.0 + t.back) * (1.0 + t.twist));
 }
 
 static bool have_common(Span<const uint32_t> a, Span<const uint32_t> b) {
@@ -28803,6 +29879,542 @@ Sight look(SightMap* map, uint32_t i, Span<const uint8_t> hidden) {
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/sight.cpp ======== */
+
+/* ======== begin src/network/nearest_patch.cpp ======== */
+namespace wireskin::network {
+
+static constexpr uint32_t k_most_of_guess = 48;  /* vertices of a loop */
+static constexpr uint32_t k_most_piece_probes = 48;
+
+/* Every so many-th vertex of each loop. */
+static Status thin_border(const Border& border, Border* thin) {
+  TRY(thin->start.push(0));
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    const uint32_t first = border.start[l], n = border.start[l + 1] - first;
+    const uint32_t count = n < k_most_of_guess ? n : k_most_of_guess;
+    for (uint32_t k = 0; k < count; ++k) {
+      const uint32_t i = first + static_cast<uint32_t>(uint64_t{k} * n / count);
+      TRY(thin->vertex.push(border.vertex[i]));
+      TRY(thin->position.push(border.position[i]));
+      TRY(thin->normal.push(border.normal[i]));
+    }
+    TRY(thin->start.push(thin->size()));
+  }
+  return {};
+}
+
+static void measure_guess(Span<const Vec3> position, Span<const uint32_t> triangle,
+                          PatchGuess* guess) {
+  double area = 0.0;
+  guess->low = guess->high = position[0];
+  for (const Vec3& p : position) {
+    Vec3 &low = guess->low, &high = guess->high;
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
+  }
+  for (size_t t = 0; t < triangle.size(); t += 3) {
+    const Vec3& a = position[triangle[t]];
+    area += 0.5 * length(cross(position[triangle[t + 1]] - a, position[triangle[t + 2]] - a));
+  }
+  guess->size = std::sqrt(area);
+}
+
+Status add_guess(const Border& border, uint32_t number, PatchGuesses* guesses) {
+  Context& context = border.vertex.context();
+  Border thin(context);
+  SpaceMesh mesh(context);
+  TRY(thin_border(border, &thin));
+  const double spacing = border_length(thin) / static_cast<double>(thin.size());
+  const Status made = mesh_border_in_space(thin, spacing, &mesh);
+  if (made.code == Code::patch_folded) return {};
+  TRY(made);
+  PatchGuess guess = {number,
+                      static_cast<uint32_t>(guesses->position.size()),
+                      static_cast<uint32_t>(guesses->triangle.size()),
+                      static_cast<uint32_t>(mesh.triangle.size()),
+                      thin.size(),
+                      0.0,
+                      Vec3{},
+                      Vec3{}};
+  measure_guess(mesh.position.span(), mesh.triangle.span(), &guess);
+  for (const Vec3& p : mesh.position) TRY(guesses->position.push(p));
+  for (uint32_t v : mesh.triangle) TRY(guesses->triangle.push(v));
+  TRY(guesses->patch.push(guess));
+  return context.checkpoint();
+}
+
+namespace {
+
+/* The place of a patch nearest to a point. */
+struct Foot {
+  double distance = DBL_MAX;
+  Vec3 normal;
+  bool on_border = false;
+};
+
+}  /* namespace */
+
+static Foot find_foot(const PatchGuesses& guesses, const PatchGuess& guess, const Vec3& p) {
+  Foot foot;
+  const Vec3* position = &guesses.position[guess.first_vertex];
+  for (uint32_t t = 0; t < guess.triangles; t += 3) {
+    const uint32_t* v = &guesses.triangle[guess.first_triangle + t];
+    const Vec3 &a = position[v[0]], &b = position[v[1]], &c = position[v[2]];
+    const Vec3 w = mesh::nearest_weights(p, a, b, c);
+    const double distance = length(w.x * a + w.y * b + w.z * c - p);
+    if (!(distance < foot.distance)) continue;
+    foot = {distance, unit(cross(b - a, c - a)), mesh::is_on_border(w, v, guess.rim)};
+  }
+  return foot;
+}
+
+static bool meets_box(const PatchGuess& guess, const Vec3& p) {
+  const double s = guess.size;
+  return p.x > guess.low.x - s && p.x < guess.high.x + s && p.y > guess.low.y - s &&
+         p.y < guess.high.y + s && p.z > guess.low.z - s && p.z < guess.high.z + s;
+}
+
+/* The greatest distance of the piece from the patch, DBL_MAX where it does not lie on it. */
+static double distance_of_piece(const CurveVertices& vertices, const Piece& piece,
+                                const PatchGuesses& guesses, const PatchGuess& guess) {
+  const size_t n = piece.vertex.size();
+  const size_t count = n < k_most_piece_probes ? n : k_most_piece_probes;
+  double greatest = 0.0, facing = 0.0, known = 0.0;
+  for (size_t k = 0; k < count; ++k) {
+    const uint32_t v = piece.vertex[k * n / count];
+    const Vec3& p = vertices.position[v];
+    if (!meets_box(guess, p)) return DBL_MAX;
+    const Foot foot = find_foot(guesses, guess, p);
+    if (foot.on_border || !(foot.distance <= piece.farthest * guess.size)) return DBL_MAX;
+    greatest = larger(greatest, foot.distance);
+    facing += dot(vertices.normal[v], foot.normal);
+    known += vertices.normal[v] != Vec3{} ? 1.0 : 0.0;
+  }
+  return facing < piece.least_facing * known ? DBL_MAX : greatest;
+}
+
+uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
+                       const PatchGuesses& guesses) {
+  uint32_t nearest = k_none;
+  double least = DBL_MAX;
+  for (uint32_t i = 0; i < guesses.patch.size(); ++i) {
+    if (guesses.patch[i].number / 2 == piece.but) continue;
+    const double distance = distance_of_piece(vertices, piece, guesses, guesses.patch[i]);
+    if (!(distance < least)) continue;
+    least = distance;
+    nearest = i;
+  }
+  return nearest;
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/nearest_patch.cpp ======== */
+
+/* ======== begin src/network/ring_bands.cpp ======== */
+namespace wireskin::network {
+
+/* No turn and no twist counts for less than this one: a band that turns back is long, not endless. */
+static constexpr double k_sharpest = 0.1;
+/* What is so many times as long as its chords is no band: a rim that bends straight back is four */
+/* times as long. */
+static constexpr double k_most_bent = 16.0;
+/* First looks take every fourth place. */
+static constexpr uint32_t k_coarse = 4;
+
+Status add_ring_side(const Border& border, const RingSide& side, RingBands* bands) {
+  const uint32_t n = border.size(), own = static_cast<uint32_t>(bands->side.size());
+  RingSide added = side;
+  added.length = border_length(border);
+  for (uint32_t k = 0; k < k_ring_places; ++k) {
+    const uint32_t at = static_cast<uint32_t>(uint64_t{k} * n / k_ring_places);
+    const uint32_t i = side.reversed ? n - 1 - at : at;
+    const Vec3 along =
+        border.position[next_on_border(border, 0, i)] - border.position[i > 0 ? i - 1 : n - 1];
+    const Vec3 conormal = unit(cross(border.normal[i], along));
+    added.centre += (1.0 / k_ring_places) * border.position[i];
+    TRY(bands->place.push(
+        {border.position[i], side.reversed ? -conormal : conormal, border.normal[i], own}));
+  }
+  return bands->side.push(added);
+}
+
+static double bent_way(const SightTurn& t) {
+  const double least = larger(1.0 + t.out, k_sharpest) * larger(1.0 + t.back, k_sharpest) *
+                       larger(1.0 + t.twist, k_sharpest);
+  return t.chord * 8.0 / least;
+}
+
+/* Places of two sides hardly ever stand right across from each other: as much of the way along the */
+/* first as that may be does not count. */
+static SightPlace moved_across(const SightPlace& p, SightPlace q, double half_step) {
+  const Vec3 along = cross(p.conormal, p.normal);
+  const double off = dot(q.position - p.position, along);
+  q.position -= (off > half_step ? half_step : off < -half_step ? -half_step : off) * along;
+  return q;
+}
+
+/* The second side runs against the first: with the surface between them both have it on the left. */
+static RingBand band_of_places(const RingBands& bands, uint32_t a, uint32_t b, uint32_t step) {
+  const uint32_t count = k_ring_places / step;
+  const double half_step = 0.5 / count * bands.side[b].length;
+  double sum[k_ring_places] = {}, chord[k_ring_places] = {}, out[k_ring_places] = {},
+         back[k_ring_places] = {}, twist[k_ring_places] = {};
+  for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t j = 0; j < count; ++j) {
+      const SightPlace& from = bands.place[a * k_ring_places + i * step];
+      const SightPlace& to = bands.place[b * k_ring_places + j * step];
+      const SightTurn t = turn_between(from, moved_across(from, to, half_step));
+      const uint32_t shift = (i + j) % count;
+      sum[shift] += bent_way(t);
+      chord[shift] += t.chord;
+      out[shift] += t.out;
+      back[shift] += t.back;
+      twist[shift] += t.twist;
+    }
+  }
+  uint32_t best = 0;
+  for (uint32_t k = 1; k < count; ++k) {
+    if (sum[k] < sum[best]) best = k;
+  }
+  const double width = 0.5 * (bands.side[a].length + bands.side[b].length);
+  const double cosine = smaller(smaller(out[best], back[best]), twist[best]) / count;
+  const double area = sum[best] / count * width;
+  if (sum[best] > k_most_bent * chord[best]) return {a < b ? a : b, a < b ? b : a, DBL_MAX, cosine};
+  return {a < b ? a : b, a < b ? b : a, area / band_weight(cosine), cosine};
+}
+
+RingBand band_between(const RingBands& bands, uint32_t a, uint32_t b) {
+  return band_of_places(bands, a < b ? a : b, a < b ? b : a, 1);
+}
+
+/* Keeps the least of the bands seen so far, the least first. */
+static void keep_band(const RingBand& band, RingBand* kept, uint32_t* count) {
+  uint32_t at = *count < k_ring_choices ? (*count)++ : k_ring_choices - 1;
+  for (; at > 0 && band.cost < kept[at - 1].cost; --at) kept[at] = kept[at - 1];
+  kept[at] = band;
+}
+
+/* No band has less area than the distance of the centres times its mean length. */
+static uint32_t nearest_bands(const RingBands& bands, uint32_t a, RingBand* kept) {
+  uint32_t count = 0;
+  const RingSide& own = bands.side[a];
+  for (uint32_t b = 0; b < bands.side.size(); ++b) {
+    const RingSide& other = bands.side[b];
+    if (other.component == own.component) continue;
+    const double least =
+        length(other.centre - own.centre) * 0.5 * (own.length + other.length) / band_weight(1.0);
+    if (count == k_ring_choices && !(least < kept[count - 1].cost)) continue;
+    const RingBand band = band_of_places(bands, a < b ? a : b, a < b ? b : a, k_coarse);
+    if (band.cost == DBL_MAX) continue;
+    if (count < k_ring_choices || band.cost < kept[count - 1].cost) keep_band(band, kept, &count);
+  }
+  return count;
+}
+
+Status list_ring_bands(RingBands* bands) {
+  RingBand kept[k_ring_choices];
+  for (uint32_t a = 0; a < bands->side.size(); ++a) {
+    const uint32_t count = nearest_bands(*bands, a, kept);
+    for (uint32_t k = 0; k < count; ++k) {
+      const RingBand band = band_between(*bands, kept[k].a, kept[k].b);
+      if (band.cost < DBL_MAX) TRY(bands->band.push(band));
+    }
+    TRY(bands->band.context().checkpoint());
+  }
+  sort(bands->band.span(), [](const RingBand& x, const RingBand& y) {
+    if (x.cost != y.cost) return x.cost < y.cost;
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  uint32_t left = 0;  /* two sides may both have listed the band between them: its bits are the same */
+  for (uint32_t i = 0; i < bands->band.size(); ++i) {
+    const RingBand& band = bands->band[i];
+    const RingBand* last = left > 0 ? &bands->band[left - 1] : nullptr;
+    if (last != nullptr && last->a == band.a && last->b == band.b) continue;
+    bands->band[left++] = band;
+  }
+  bands->band.shrink(left);
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/ring_bands.cpp ======== */
+
+/* ======== begin src/network/ring_pairs.cpp ======== */
+namespace wireskin::network {
+
+/* A curve closed on both sides hangs there by itself: that costs so many times more while another */
+/* one is in sight. */
+static constexpr double k_blob = 2.0;
+/* A side whose normals agree less with its axis has no lid. */
+static constexpr double k_clockwise = -0.3;
+/* An exchange must cost less than this part; choices that cost no more than this are equally good. */
+static constexpr double k_saves = 1.0 - 1e-6, k_as_good = 1.1;
+/* Sides see each other with this cosine at least; others are only asked for what is left. */
+static constexpr double k_in_sight = 0.02;
+/* So many bands an exchange chooses one after the other. Each concerns two sides, their twins, and */
+/* the partners of these with their twins; the sides of those chosen before are noted already. */
+static constexpr uint32_t k_most_links = 6, k_most_touched = 12 * k_most_links;
+
+namespace {
+
+struct RingPairing {
+  RingBands* bands;
+  Lists bands_of;           /* of each side, by cost */
+  Array<uint32_t> partner;  /* of each side */
+  Array<double> paid;       /* of each side with a partner: the cost of the band */
+  Array<uint8_t> fixed;     /* of each side: its partner is not exchanged any more */
+  double blob = k_blob;     /* what closing both sides of a curve costs more */
+
+  RingPairing(Context& context, RingBands* of)
+      : bands(of), bands_of(context), partner(context), paid(context), fixed(context) {}
+};
+
+/* One band chosen, and for the sides that lose their partners by it the best others, and so on: */
+/* what it changed, so that all can be taken back. */
+struct Chain {
+  uint32_t side[k_most_touched];
+  uint32_t partner[k_most_touched];
+  double paid[k_most_touched];
+  uint32_t count = 0;
+  double before = 0.0;            /* the cost of all these sides */
+  uint32_t left[k_most_touched];  /* sides that lost their partners */
+  uint32_t lefts = 0;
+  uint32_t chosen[2 * k_most_links];  /* sides of bands that the chain has chosen */
+  uint32_t choices = 0;
+};
+
+}  /* namespace */
+
+static Status list_bands_of_sides(RingPairing* pairing) {
+  Lists& of = pairing->bands_of;
+  const RingBands& bands = *pairing->bands;
+  TRY(of.start.assign(bands.side.size() + 1, 0));
+  TRY(of.item.resize(2 * bands.band.size()));
+  for (const RingBand& band : bands.band) {
+    ++of.start[band.a];
+    ++of.start[band.b];
+  }
+  starts_from_counts(of.start.span());
+  for (uint32_t i = 0; i < bands.band.size(); ++i) {
+    of.item[of.start[bands.band[i].a]++] = i;
+    of.item[of.start[bands.band[i].b]++] = i;
+  }
+  for (size_t s = of.start.size() - 1; s > 0; --s) of.start[s] = of.start[s - 1];
+  of.start[0] = 0;
+  return {};
+}
+
+/* Whether both sides of a curve are alone, each with a lid. What has none lies on another patch. */
+static bool is_blob(const RingPairing& pairing, uint32_t s) {
+  const RingBands& bands = *pairing.bands;
+  const uint32_t other = bands.side[s].other;
+  return other != k_none && pairing.partner[other] == k_none &&
+         bands.side[s].cosine > k_clockwise && bands.side[other].cosine > k_clockwise;
+}
+
+static double cost_of_side(const RingPairing& pairing, uint32_t s) {
+  if (pairing.partner[s] != k_none) return 0.5 * pairing.paid[s];
+  const RingSide& side = pairing.bands->side[s];
+  if (side.twin == k_none) return is_blob(pairing, s) ? pairing.blob * side.alone : side.alone;
+  return pairing.partner[side.twin] != k_none ? 0.0 : 0.5 * side.alone;
+}
+
+static void unlink_side(uint32_t s, RingPairing* pairing) {
+  if (s == k_none || pairing->partner[s] == k_none) return;
+  pairing->partner[pairing->partner[s]] = k_none;
+  pairing->partner[s] = k_none;
+}
+
+static void link_sides(const RingBand& band, RingPairing* pairing) {
+  unlink_side(pairing->bands->side[band.a].twin, pairing);
+  unlink_side(pairing->bands->side[band.b].twin, pairing);
+  unlink_side(band.a, pairing);
+  unlink_side(band.b, pairing);
+  pairing->partner[band.a] = band.b;
+  pairing->partner[band.b] = band.a;
+  pairing->paid[band.a] = pairing->paid[band.b] = band.cost;
+}
+
+static void note_side(uint32_t s, const RingPairing& pairing, Chain* chain) {
+  if (s == k_none) return;
+  for (uint32_t i = 0; i < chain->count; ++i) {
+    if (chain->side[i] == s) return;
+  }
+  WIRESKIN_ASSERT(chain->count < k_most_touched);
+  const uint32_t i = chain->count++;
+  chain->side[i] = s;
+  chain->partner[i] = pairing.partner[s];
+  chain->paid[i] = pairing.paid[s];
+  chain->before += cost_of_side(pairing, s);
+}
+
+/* Both sides of a curve: what one costs depends on the other. */
+static void note_curve(uint32_t s, const RingPairing& pairing, Chain* chain) {
+  note_side(s, pairing, chain);
+  note_side(pairing.bands->side[s].twin, pairing, chain);
+  note_side(pairing.bands->side[s].other, pairing, chain);
+}
+
+/* Notes a side and the partners that its curve loses, before anything changes there; the partners */
+/* are left over. */
+static void note_round(uint32_t s, const RingPairing& pairing, Chain* chain) {
+  note_curve(s, pairing, chain);
+  const uint32_t own[2] = {s, pairing.bands->side[s].twin};
+  for (uint32_t side : own) {
+    if (side == k_none) continue;
+    const uint32_t other = pairing.partner[side];
+    if (other == k_none) continue;
+    note_curve(other, pairing, chain);
+    chain->left[chain->lefts++] = other;
+  }
+}
+
+static void choose_band(const RingBand& band, RingPairing* pairing, Chain* chain) {
+  note_round(band.a, *pairing, chain);
+  note_round(band.b, *pairing, chain);
+  link_sides(band, pairing);
+  chain->chosen[chain->choices++] = band.a;
+  chain->chosen[chain->choices++] = band.b;
+}
+
+static double cost_now(const RingPairing& pairing, const Chain& chain) {
+  double sum = 0.0;
+  for (uint32_t i = 0; i < chain.count; ++i) sum += cost_of_side(pairing, chain.side[i]);
+  return sum;
+}
+
+static bool was_chosen(const Chain& chain, uint32_t s) {
+  bool was = false;
+  for (uint32_t i = 0; i < chain.choices; ++i) was = was || chain.chosen[i] == s;
+  return was;
+}
+
+static bool may_link(const RingPairing& pairing, const RingBand& band, double least_cosine) {
+  const RingSide &a = pairing.bands->side[band.a], &b = pairing.bands->side[band.b];
+  return !pairing.fixed[band.a] && !pairing.fixed[band.b] && band.cosine >= least_cosine &&
+         pairing.partner[band.a] != band.b && band.cost < pairing.blob * (a.alone + b.alone);
+}
+
+/* The band with the least cost for a side left over, k_none where there is none. */
+static uint32_t next_band(const RingPairing& pairing, uint32_t s, double least_cosine,
+                          const Chain& chain) {
+  for (uint32_t i : pairing.bands_of[s]) {
+    const RingBand& band = pairing.bands->band[i];
+    const uint32_t other = band.a == s ? band.b : band.a, twin = pairing.bands->side[other].twin;
+    if (!may_link(pairing, band, least_cosine) || was_chosen(chain, other)) continue;
+    if (twin == k_none || !was_chosen(chain, twin)) return i;
+  }
+  return k_none;
+}
+
+/* What the sides concerned cost when a band is chosen and others behind it, in proportion to what */
+/* they cost now, where that is least; the choice is taken back unless it saves something and is to */
+/* be kept. */
+static double change_by(const RingBand& band, double least_cosine, bool keep,
+                        RingPairing* pairing) {
+  Chain chain;
+  choose_band(band, pairing, &chain);
+  double least = cost_now(*pairing, chain) / chain.before;
+  uint32_t next = 0;
+  for (uint32_t link = 1; link < k_most_links && next < chain.lefts; ++link) {
+    if (keep && least < k_saves) return least;
+    const uint32_t s = chain.left[next++];
+    if (pairing->partner[s] != k_none || was_chosen(chain, s)) continue;
+    const uint32_t b = next_band(*pairing, s, least_cosine, chain);
+    if (b == k_none) continue;
+    choose_band(pairing->bands->band[b], pairing, &chain);
+    least = smaller(least, cost_now(*pairing, chain) / chain.before);
+  }
+  if (keep && least < k_saves) return least;
+  for (uint32_t i = 0; i < chain.count; ++i) {
+    pairing->partner[chain.side[i]] = chain.partner[i];
+    pairing->paid[chain.side[i]] = chain.paid[i];
+  }
+  return least;
+}
+
+static bool is_free(const RingPairing& pairing, uint32_t s) {
+  const uint32_t twin = pairing.bands->side[s].twin;
+  return pairing.partner[s] == k_none && (twin == k_none || pairing.partner[twin] == k_none);
+}
+
+/* The bands with the least cost first. */
+static void pair_nearest(double least_cosine, RingPairing* pairing) {
+  for (const RingBand& band : pairing->bands->band) {
+    if (!may_link(*pairing, band, least_cosine)) continue;
+    if (!is_free(*pairing, band.a) || !is_free(*pairing, band.b)) continue;
+    const double alone = cost_of_side(*pairing, band.a) + cost_of_side(*pairing, band.b);
+    if (band.cost < alone) link_sides(band, pairing);
+  }
+}
+
+/* Every round saves something, so there is an end; a few rounds get where many would. */
+static Status exchange_partners(double least_cosine, RingPairing* pairing) {
+  constexpr int k_most_rounds = 16;
+  bool any = true;
+  for (int round = 0; any && round < k_most_rounds; ++round) {
+    any = false;
+    for (const RingBand& band : pairing->bands->band) {
+      if (!may_link(*pairing, band, least_cosine)) continue;
+      any = change_by(band, least_cosine, true, pairing) < k_saves || any;
+    }
+    TRY(pairing->partner.context().checkpoint());
+  }
+  return {};
+}
+
+/* Partners in sight stay; so does the other side of a ring that has only one. */
+static void fix_partners(RingPairing* pairing) {
+  for (uint32_t s = 0; s < pairing->partner.size(); ++s) {
+    if (pairing->partner[s] == k_none) continue;
+    const uint32_t twin = pairing->bands->side[s].twin;
+    pairing->fixed[s] = 1;
+    if (twin != k_none) pairing->fixed[twin] = 1;
+  }
+}
+
+/* What looks across itself is rather closed by itself than bent back to another side. */
+static void prefer_lids_in_sight(RingPairing* pairing) {
+  pairing->blob = 1.0;
+  for (RingSide& side : pairing->bands->side)
+    side.alone *= band_weight(0.0) / band_weight(side.cosine);
+}
+
+static void mark_doubtful(RingPairing* pairing, Span<uint8_t> doubtful) {
+  for (const RingBand& band : pairing->bands->band) {
+    const RingSide &a = pairing->bands->side[band.a], &b = pairing->bands->side[band.b];
+    bool as_good = false;
+    if (pairing->partner[band.a] == band.b) {
+      as_good = a.lid + b.lid < k_as_good * band.cost * band_weight(band.cosine);
+    } else {
+      as_good = may_link(*pairing, band, -1.0) && change_by(band, -1.0, false, pairing) < k_as_good;
+    }
+    if (as_good) doubtful[band.a] = doubtful[band.b] = 1;
+  }
+}
+
+Status pair_sides(RingBands* bands, Array<uint32_t>* partner, Array<uint8_t>* doubtful) {
+  Context& context = partner->context();
+  RingPairing pairing(context, bands);
+  const size_t sides = bands->side.size();
+  TRY(pairing.partner.assign(sides, k_none));
+  TRY(pairing.paid.assign(sides, 0.0));
+  TRY(pairing.fixed.assign(sides, 0));
+  TRY(doubtful->assign(sides, 0));
+  TRY(list_ring_bands(bands));
+  TRY(list_bands_of_sides(&pairing));
+  pair_nearest(k_in_sight, &pairing);
+  TRY(exchange_partners(k_in_sight, &pairing));
+  fix_partners(&pairing);
+  prefer_lids_in_sight(&pairing);
+  pair_nearest(-1.0, &pairing);
+  TRY(exchange_partners(-1.0, &pairing));
+  mark_doubtful(&pairing, doubtful->span());
+  return partner->copy(pairing.partner.span());
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/ring_pairs.cpp ======== */
 
 /* ======== begin src/network/kept_parts.cpp ======== */
 namespace wireskin::network {
@@ -28987,6 +30599,17 @@ static Status take_loop_mesh(const Border& border, double spacing, SpaceMesh* me
   return take_mesh(border, &flat, mesh);
 }
 
+/* Tubes from several loops to where they meet. */
+static Status take_branches(const Border& border, double spacing, SpaceMesh* mesh) {
+  Context& context = mesh->position.context();
+  mesh::LoopMesh branches(context);
+  TRY(mesh::mesh_branches(context, loops_of(border), spacing, &branches));
+  TRY(take_mesh(border, &branches, mesh));
+  if (has_needles(*mesh)) return take_loop_mesh(border, spacing, mesh);
+  return mesh::refine_loops(context, spacing, border.start.span(), &mesh->position,
+                            &mesh->triangle);
+}
+
 static Status take_band(const Border& border, double spacing, SpaceMesh* mesh) {
   Context& context = mesh->position.context();
   mesh::LoopMesh band(context);
@@ -29011,11 +30634,13 @@ Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mes
         spacing, smaller(k_coarser * spacing, border_length(border) / k_edges_of_coarse_border));
     const mesh::HeldCurves held = {border.size(), {}};
     bool sound = true;
-    TRY(take_loop_mesh(border, coarse, mesh));
+    TRY(border.loops() > 2 ? take_branches(border, coarse, mesh)
+                           : take_loop_mesh(border, coarse, mesh));
     TRY(raise_once(border, border.size(), mesh, &sound));
     TRY(refine_and_raise(border, held, coarse, k_coarse_rounds, mesh, &sound));
     TRY(refine_and_raise(border, held, spacing, k_fine_rounds, mesh, &sound));
     if (sound) return {};
+    if (border.loops() > 2) return take_branches(border, spacing, mesh);
   }
   return take_loop_mesh(border, spacing, mesh);
 }
@@ -31531,8 +33156,7 @@ static Status list_inner_edges(const DisplaceInput& input, InnerEdges* edges) {
   for (uint32_t v : ends) ++edges->start[v];
   starts_from_counts(edges->start.span());
   for (uint32_t i = 0; i < ends.size(); ++i) edges->other[edges->start[ends[i]]++] = ends[i ^ 1u];
-  for (size_t v = edges->start.size() - 1; v > 0; --v) edges->start[v] = edges->start[v - 1];
-  edges->start[0] = 0;
+  shift_starts_back(edges->start.span());
   return {};
 }
 
@@ -33999,6 +35623,9 @@ static Status read_flow_options(const wsk_flow_options* given, wsk_flow_options*
   if (!finite_and_not_negative(options->thickness)) {
     return fail(Code::bad_argument, "the thickness is negative or not finite");
   }
+  if (options->lids < 0 || options->lids >= WSK_LIDS_COUNT) {
+    return fail(Code::bad_argument, "the lids are none of WSK_LIDS_...");
+  }
   return {};
 }
 
@@ -34123,6 +35750,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   if (flow_options.most_tetrahedra > 0) inside.complex.most_tets = flow_options.most_tetrahedra;
   inside.complex.seed = flow_options.seed;
   inside.bend = !made->normal.empty();
+  inside.lids = static_cast<flow::Lids>(flow_options.lids);
   const flow::Polylines polylines = {input.start.span(), input.position.span(), input.number.span(),
                                      input.closed.span()};
   TRY(made->given.copy(input.position.span()));
@@ -34141,6 +35769,8 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   view.void_count = static_cast<uint32_t>(made->tables.voids.size());
   view.voids = made->tables.voids.data();
   view.normals_sentence = "";
+  view.sampling = Scale(made->exponent)(made->flow.step);
+  view.faces_skipped = made->flow.cells.given_up;
   flow::CriticalPoints critical(context);
   TRY(flow::find_critical_points(made->flow.complex, &critical));
   view.critical_count[0] = critical.points;
@@ -34233,6 +35863,8 @@ static void fill_flow_view(const flow::Reconstruction& reconstruction, const Flo
   view->normals_places = outcome.normals_places;
   view->normals_sentence = normals_sentence(outcome.normals);
   view->caged_count = static_cast<uint32_t>(reconstruction.topology.chosen.size());
+  view->open_lid_count = reconstruction.open_lids;
+  view->untried_count = reconstruction.topology.untried;
   view->patches = tables.patches.data();
   view->loop_count = static_cast<uint32_t>(tables.loop_first.size() - 1);
   view->loop_first = tables.loop_first.data();
