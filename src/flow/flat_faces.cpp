@@ -8,6 +8,10 @@ namespace wireskin::flow {
 
 static constexpr double k_least_corner = 0.94;  // cosine of what a polygon turns at a corner
 static constexpr double k_beside = 1e-5;        // of the diagonal, from an edge
+// Corners keep their noise, and a plane may go through some that are off it.
+static constexpr double k_noise_off_plane = 3.0;  // times its standard deviation
+static constexpr double k_most_noise = 10.0;      // times what is flat without noise
+static constexpr double k_exact = 0.02;  // of what counts as flat: planes are no matter of choice
 static constexpr uint8_t k_most_visits = 4;
 // Of lines and samples looked at; who draws faces as dense as that gets none.
 static constexpr size_t k_most_work = size_t{1} << 26;
@@ -17,6 +21,7 @@ namespace {
 
 struct Plane {
   Vec3 at, normal;
+  double flat;  // what is nearer lies in it
 };
 
 enum class Crossed : uint8_t { unknown, no, yes };
@@ -25,6 +30,7 @@ struct FaceFlood {
   // For what runs across a triangle: ends of lines, those of them in the plane of a seed; samples
   // of arcs that bend; what is known of each triangle, and how much was looked at.
   Array<Vec3> line_end;
+  Array<double> line_bend;  // of each line: how far its samples are off it
   Array<uint32_t> plane_line;
   uint32_t plane_line_of = k_none;
   PointGrid grid;
@@ -43,6 +49,7 @@ struct FaceFlood {
 
   explicit FaceFlood(Context& context)
       : line_end(context),
+        line_bend(context),
         plane_line(context),
         grid(context),
         curved(context),
@@ -73,16 +80,16 @@ static double twice_area(const Complex& complex, uint32_t t) {
   return length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
 }
 
-static Plane plane_of(const Complex& complex, uint32_t t) {
+static Plane plane_of(const Complex& complex, uint32_t t, double flat) {
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const Vec3& a = complex.point[v[0]];
-  return {a, unit(cross(complex.point[v[1]] - a, complex.point[v[2]] - a))};
+  return {a, unit(cross(complex.point[v[1]] - a, complex.point[v[2]] - a)), flat};
 }
 
 static bool in_plane(const Complex& complex, const Plane& plane, uint32_t t) {
   for (uint32_t k = 0; k < 3; ++k) {
     const Vec3& p = complex.point[complex.triangle[3 * size_t{t} + k]];
-    if (std::fabs(dot(p - plane.at, plane.normal)) > k_flat * complex.diagonal) return false;
+    if (std::fabs(dot(p - plane.at, plane.normal)) > plane.flat) return false;
   }
   return true;
 }
@@ -170,10 +177,9 @@ static bool crosses_edge(const Plane& plane, const Vec3& a, const Vec3& b, doubl
 
 // Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or
 // along its edges.
-static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, const Vec3& p,
-                           const Vec3& q) {
+static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, double margin,
+                           const Vec3& p, const Vec3& q) {
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const double margin = k_beside * complex.diagonal;
   double from = 0.0, to = 1.0;
   const Vec3& a = complex.point[v[0]];
   const Vec3 n = cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
@@ -204,15 +210,15 @@ static uint32_t edge_of_sliver(const Complex& complex, uint32_t t) {
 }
 
 static bool reaches_across(const Complex& complex, const Plane& plane, uint32_t t, uint32_t sliver,
-                           const Vec3& p, const Vec3& q) {
-  if (sliver == 3) return passes_through(complex, plane, t, p, q);
+                           double margin, const Vec3& p, const Vec3& q) {
+  if (sliver == 3) return passes_through(complex, plane, t, margin, p, q);
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]],
-                      k_beside * complex.diagonal, p, q);
+  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]], margin,
+                      p, q);
 }
 
-static bool near_plane(const Complex& complex, const Plane& plane, const Vec3& p) {
-  return std::fabs(dot(p - plane.at, plane.normal)) <= k_flat * complex.diagonal;
+static bool near_plane(const Plane& plane, const Vec3& p) {
+  return std::fabs(dot(p - plane.at, plane.normal)) <= plane.flat;
 }
 
 static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_t seed, uint32_t t,
@@ -223,14 +229,14 @@ static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_
     flood->plane_line.clear();
     flood->work += end.size() / 2;
     for (uint32_t i = 0; i < end.size(); i += 2) {
-      const bool within =
-          near_plane(complex, plane, end[i]) && near_plane(complex, plane, end[i + 1]);
+      const bool within = near_plane(plane, end[i]) && near_plane(plane, end[i + 1]);
       if (within) flood->plane_line.push_reserved(i);
     }
   }
   flood->work += flood->plane_line.size();
   for (const uint32_t i : flood->plane_line) {
-    if (reaches_across(complex, plane, t, sliver, end[i], end[i + 1])) return true;
+    const double margin = k_beside * complex.diagonal + flood->line_bend[i / 2];
+    if (reaches_across(complex, plane, t, sliver, margin, end[i], end[i + 1])) return true;
   }
   return false;
 }
@@ -243,14 +249,15 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
   const double size = larger(length(b - a), larger(length(c - b), length(a - c)));
+  const double margin = k_beside * complex.diagonal;
   return flood->grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t at) {
     const uint32_t i = flood->curved[at];
     ++flood->work;
-    if (!near_plane(complex, plane, complex.point[i])) return false;
+    if (!near_plane(plane, complex.point[i])) return false;
     for (uint32_t k = flood->next_start[i]; k < flood->next_start[i + 1]; ++k) {
       const Vec3& q = complex.point[flood->next[k]];
-      if (!near_plane(complex, plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
-      if (reaches_across(complex, plane, t, sliver, complex.point[i], q)) return true;
+      if (!near_plane(plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
+      if (reaches_across(complex, plane, t, sliver, margin, complex.point[i], q)) return true;
     }
     return false;
   });
@@ -312,6 +319,46 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
         if (!is_crossed(complex, lines, plane, seed, t, flood)) TRY(add(t));
       }
     }
+  }
+  return {};
+}
+
+// The plane of the triangles found, and how far off the one before they were at most.
+static Plane plane_of_members(const Complex& complex, const FaceFlood& flood, const Plane& plane,
+                              double* off) {
+  Vec3 normal, middle;
+  *off = 0.0;
+  for (const uint32_t t : flood.member) {
+    const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+    const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
+    const Vec3 n = cross(b - a, c - a);
+    if (dot(n, plane.normal) > 0.0) normal += n;
+    if (dot(n, plane.normal) < 0.0) normal -= n;
+    middle += (1.0 / 3.0) * (a - plane.at + (b - plane.at) + (c - plane.at));
+    for (uint32_t k = 0; k < 3; ++k) {
+      *off = larger(*off, std::fabs(dot(complex.point[v[k]] - plane.at, plane.normal)));
+    }
+  }
+  const double share = 1.0 / static_cast<double>(flood.member.size());
+  return {plane.at + share * middle, unit(normal), plane.flat};
+}
+
+// With noise the plane of one triangle is askew: the planes of all that it has in reach follow.
+static Status flood_plane(const Complex& complex, const CurveEdges& curves,
+                          const StraightLines& lines, const FlatFaces& faces, uint32_t seed,
+                          Plane* plane, FaceFlood* flood) {
+  constexpr uint32_t k_most_planes = 4;
+  for (uint32_t i = 0; i < k_most_planes; ++i) {
+    TRY(flood_face(complex, curves, lines, faces, *plane, seed, flood));
+    double off = 0.0;
+    const Plane next = plane_of_members(complex, *flood, *plane, &off);
+    if (off <= k_exact * plane->flat || i + 1 == k_most_planes) break;
+    if (flood->work > k_most_work || !in_plane(complex, next, seed)) break;
+    for (const uint32_t t : flood->member) {
+      flood->mark[t] = k_none;
+      --flood->visits[t];
+    }
+    *plane = next;
   }
   return {};
 }
@@ -406,9 +453,9 @@ static bool is_pierced(const Complex& complex, const Plane& plane, const FaceFlo
       bool above = false, below = false, within = false;
       for (uint32_t i = flood.next_start[v]; i < flood.next_start[v + 1]; ++i) {
         const double off = dot(complex.point[flood.next[i]] - plane.at, plane.normal);
-        above = above || off > k_flat * complex.diagonal;
-        below = below || off < -k_flat * complex.diagonal;
-        within = within || std::fabs(off) <= k_flat * complex.diagonal;
+        above = above || off > plane.flat;
+        below = below || off < -plane.flat;
+        within = within || std::fabs(off) <= plane.flat;
       }
       if (above && below && !within) return true;
     }
@@ -467,17 +514,17 @@ static Status add_face(const Complex& complex, const Samples& samples, const Cur
 }
 
 // The plane of an arc that is not straight; none if it has no plane or is not to be looked at.
-static bool plane_of_arc(const Complex& complex, const Samples& samples, uint32_t a, Plane* plane) {
+static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, Plane* plane) {
   const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
   const auto at = [&](uint32_t i) { return samples.position[samples.at[i]]; };
   Vec3 normal;
   for (uint32_t i = first + 1; i + 1 <= last; ++i) {
     normal += cross(at(i) - at(first), at(i + 1) - at(first));
   }
-  *plane = {at(first), unit(normal)};
+  *plane = {at(first), unit(normal), flat};
   for (uint32_t i = first; i <= last; ++i) {
     const double off = dot(at(i) - plane->at, plane->normal);
-    if (std::fabs(off) > 0.1 * k_flat * complex.diagonal) return false;
+    if (std::fabs(off) > 0.1 * flat) return false;
   }
   return dot(normal, normal) > 0.0;
 }
@@ -485,12 +532,13 @@ static bool plane_of_arc(const Complex& complex, const Samples& samples, uint32_
 // Triangles at straight arcs, and those in the planes of others, which every face has, largest
 // first.
 static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                         const StraightLines& lines, Array<double>* area, Array<uint32_t>* seeds) {
+                         const StraightLines& lines, double flat, Array<double>* area,
+                         Array<uint32_t>* seeds) {
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     Plane plane;
     const bool straight = lines.is_straight(a);
-    if (!straight && !plane_of_arc(complex, samples, a, &plane)) continue;
+    if (!straight && !plane_of_arc(samples, a, flat, &plane)) continue;
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
@@ -526,6 +574,14 @@ static Status list_lines(const Complex& complex, const Samples& samples, const S
         if (dot(p - high, along) > 0.0) high = p;
       }
     }
+    double bend = 0.0;
+    for (uint32_t i = first; i < last; ++i) {
+      for (uint32_t k = samples.start[lines.arc[i]]; k < samples.start[lines.arc[i] + 1]; ++k) {
+        const Vec3& p = complex.point[complex.same_as[samples.at[k]]];
+        bend = larger(bend, length(reject(p - low, unit(high - low))));
+      }
+    }
+    TRY(flood->line_bend.push(bend));
     TRY(flood->line_end.push(low));
     TRY(flood->line_end.push(high));
   }
@@ -574,17 +630,20 @@ static Status forget_faces(FlatFaces* faces) {
 }
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
+                       const CurveEdges& curves, const StraightLines& lines, double noise,
+                       FlatFaces* faces) {
+  const double flat = k_flat * complex.diagonal;
+  faces->flat = larger(flat, smaller(k_noise_off_plane * noise, k_most_noise * flat));
   FaceFlood flood(context);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
-  TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
+  TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
     if (flood.visits[seed] != 0) continue;
-    const Plane plane = plane_of(complex, seed);
+    Plane plane = plane_of(complex, seed, faces->flat);
     if (is_crossed(complex, lines, plane, seed, seed, &flood)) continue;
-    TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
+    TRY(flood_plane(complex, curves, lines, *faces, seed, &plane, &flood));
     if (flood.work > k_most_work) return forget_faces(faces);
     TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;

@@ -4,10 +4,10 @@
 
 namespace wireskin::flow {
 
-static constexpr double k_off_plane = 3.0 * k_flat;  // of the diagonal
-static constexpr double k_sideways = 0.05;           // sine of the angle between two faces' planes
-static constexpr double k_same_wall = 0.7;           // cosine of the angle between curves in it
-static constexpr double k_look_along = 0.1;          // of the diagonal
+static constexpr double k_off_plane = 3.0;   // times what counts as flat
+static constexpr double k_sideways = 0.05;   // sine of the angle between two faces' planes
+static constexpr double k_same_wall = 0.7;   // cosine of the angle between curves in it
+static constexpr double k_look_along = 0.1;  // of the diagonal
 
 namespace {
 
@@ -41,7 +41,7 @@ struct Sheets {
 
 }  // namespace
 
-static uint32_t vertex_at_end(const Complex& complex, const Samples& samples, uint32_t end) {
+static uint32_t vertex_of_end(const Complex& complex, const Samples& samples, uint32_t end) {
   const uint32_t a = end / 2;
   const uint32_t at = (end & 1) == 0 ? samples.start[a] : samples.start[a + 1] - 1;
   return complex.same_as[samples.at[at]];
@@ -51,10 +51,10 @@ static Status link_ends(const Complex& complex, const Samples& samples, ArcEnds*
   const uint32_t count = 2 * static_cast<uint32_t>(samples.start.size() - 1);
   TRY(ends->start.assign(complex.point.size() + 1, 0));
   TRY(ends->end.resize(count));
-  for (uint32_t i = 0; i < count; ++i) ++ends->start[vertex_at_end(complex, samples, i)];
+  for (uint32_t i = 0; i < count; ++i) ++ends->start[vertex_of_end(complex, samples, i)];
   starts_from_counts(ends->start.span());
   for (uint32_t i = 0; i < count; ++i) {
-    ends->end[ends->start[vertex_at_end(complex, samples, i)]++] = i;
+    ends->end[ends->start[vertex_of_end(complex, samples, i)]++] = i;
   }
   for (size_t v = ends->start.size() - 1; v > 0; --v) ends->start[v] = ends->start[v - 1];
   ends->start[0] = 0;
@@ -72,13 +72,13 @@ static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
     const uint32_t i = forward ? first + k : last - k;
     const Vec3 to = samples.position[samples.at[i]] - samples.position[samples.at[from]];
     ++search->work;
-    if (std::fabs(dot(to, normal)) > k_off_plane * diagonal) return to;
+    if (std::fabs(dot(to, normal)) > k_off_plane * search->faces->flat) return to;
     if (std::fabs(samples.along[i] - samples.along[from]) > k_look_along * diagonal) break;
   }
   return {};
 }
 
-static Vec3 tangent_at(const Samples& samples, uint32_t end) {
+static Vec3 tangent_of_end(const Samples& samples, uint32_t end) {
   const uint32_t first = samples.start[end / 2], last = samples.start[end / 2 + 1] - 1;
   const uint32_t from = (end & 1) == 0 ? first : last;
   const uint32_t to = (end & 1) == 0 ? first + 1 : last - 1;
@@ -96,16 +96,22 @@ static bool runs_on(const LidSearch& search, uint32_t vertex, uint32_t end) {
   return false;
 }
 
+// A curve that ends in mid-air shows no wall.
+static bool is_loose(const LidSearch& search, uint32_t end) {
+  const uint32_t v = vertex_of_end(*search.complex, *search.samples, end);
+  return search.ends.start[v + 1] - search.ends.start[v] == 1;
+}
+
 // Walls that curves show which leave the plane at an end of an arc. Those that leave it far apart,
 // seen along the arc, are in different walls: two on a side are enough to know.
 static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, Sheets* sheets) {
-  const uint32_t v = vertex_at_end(*search->complex, *search->samples, rim_end);
-  const Vec3 tangent = tangent_at(*search->samples, rim_end);
+  const uint32_t v = vertex_of_end(*search->complex, *search->samples, rim_end);
+  const Vec3 tangent = tangent_of_end(*search->samples, rim_end);
   Vec3 first[2];
   uint32_t count[2] = {};
   for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
     const uint32_t end = search->ends.end[i];
-    if (end / 2 == rim_end / 2) continue;
+    if (end / 2 == rim_end / 2 || is_loose(*search, end ^ 1)) continue;
     const Vec3 across = unit(reject(leaving(search, end, normal), tangent));
     if (dot(across, across) == 0.0) continue;
     const uint32_t side = dot(across, normal) > 0.0 ? 0 : 1;
@@ -243,7 +249,7 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
   const auto each_end = [&](uint32_t f, const auto& visit) {
     for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
       for (uint32_t k = 0; k < 2; ++k) {
-        visit(vertex_at_end(complex, samples, 2 * faces.rim[i].arc + k));
+        visit(vertex_of_end(complex, samples, 2 * faces.rim[i].arc + k));
       }
     }
   };
@@ -252,7 +258,7 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
     bool tunnel = false;
     each_end(f, [&](uint32_t v) {
       for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
-        const uint32_t other = hole_at[vertex_at_end(complex, samples, search->ends.end[i] ^ 1)];
+        const uint32_t other = hole_at[vertex_of_end(complex, samples, search->ends.end[i] ^ 1)];
         tunnel = tunnel || (other != k_none && other != f);
       }
     });
