@@ -20,7 +20,7 @@ struct FacePlace {
   uint32_t low, high, face;
 };
 
-enum class Turn : uint8_t { free, grown, over };
+enum class CellTurn : uint8_t { free, grown, over };
 
 struct Merging {
   Array<uint32_t> live;    // of each arc: its parting faces, the first of its places
@@ -29,7 +29,7 @@ struct Merging {
   Array<FacePlace> place;
   Array<CellPair> pair;
   Array<uint32_t> order;
-  Array<Turn> turn;                       // of each cell, in this pass
+  Array<CellTurn> turn;                   // of each cell, in this pass
   Array<uint32_t> degree;                 // of each cell: its pairs
   Array<uint32_t> first_pair, next_pair;  // lists of pairs: of each cell, of both sides of a pair
 
@@ -47,12 +47,6 @@ struct Merging {
 };
 
 }  // namespace
-
-static Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
-}
 
 // Lower over its largest face than two layers of a flat face can be.
 static bool is_flat_tet(const Complex& complex, uint32_t t, double flat) {
@@ -224,7 +218,7 @@ static Status start_pass(Merging* merging) {
   for (const CellPair& p : merging->pair) {
     const uint32_t sides[2] = {p.low, p.high};
     for (const uint32_t cell : sides) {
-      merging->turn[cell] = Turn::free;
+      merging->turn[cell] = CellTurn::free;
       merging->degree[cell] = 0;
       merging->first_pair[cell] = k_none;
     }
@@ -248,9 +242,9 @@ static Status start_pass(Merging* merging) {
 // Whether nothing done in this pass bears on what the merger gains: one cell has not changed, and
 // the other has only grown by cells that the one does not touch, at other curves.
 static bool is_independent(const FlatFaces& faces, const CellPair& pair, const Merging& merging) {
-  const Turn low = merging.turn[pair.low], high = merging.turn[pair.high];
-  if (low == Turn::over || high == Turn::over) return false;
-  if (low == Turn::grown && high == Turn::grown) return false;
+  const CellTurn low = merging.turn[pair.low], high = merging.turn[pair.high];
+  if (low == CellTurn::over || high == CellTurn::over) return false;
+  if (low == CellTurn::grown && high == CellTurn::grown) return false;
   for (uint32_t p = pair.first; p < pair.last; ++p) {
     const uint32_t f = merging.place[p].face;
     for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
@@ -263,17 +257,17 @@ static bool is_independent(const FlatFaces& faces, const CellPair& pair, const M
 // The cell with fewer neighbours goes into the other; what it touches waits for the next pass.
 static void merge_pair(const FlatFaces& faces, const CellPair& pair, CellForest* forest,
                        Merging* merging) {
-  const bool low_grown = merging->turn[pair.low] == Turn::grown;
-  const bool high_grown = merging->turn[pair.high] == Turn::grown;
+  const bool low_grown = merging->turn[pair.low] == CellTurn::grown;
+  const bool high_grown = merging->turn[pair.high] == CellTurn::grown;
   const bool low_larger = merging->degree[pair.low] > merging->degree[pair.high];
   const uint32_t into = low_grown || (!high_grown && low_larger) ? pair.low : pair.high;
   const uint32_t small = into == pair.low ? pair.high : pair.low;
   for (uint32_t at = merging->first_pair[small]; at != k_none; at = merging->next_pair[at]) {
     const CellPair& p = merging->pair[at / 2];
-    merging->turn[(at & 1) == 0 ? p.high : p.low] = Turn::over;
+    merging->turn[(at & 1) == 0 ? p.high : p.low] = CellTurn::over;
   }
-  merging->turn[small] = Turn::over;
-  merging->turn[into] = Turn::grown;
+  merging->turn[small] = CellTurn::over;
+  merging->turn[into] = CellTurn::grown;
   for (uint32_t p = pair.first; p < pair.last; ++p) {
     const uint32_t f = merging->place[p].face;
     for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
@@ -290,7 +284,7 @@ Status merge_cells(Context& context, const Samples& samples, const StraightLines
   TRY(merging.live.assign(rims->arc_count(), 0));
   TRY(merging.count.assign(rims->arc_count(), 0));
   TRY(merging.changed.assign(rims->arc_count(), 0));
-  TRY(merging.turn.assign(cell_count, Turn::free));
+  TRY(merging.turn.assign(cell_count, CellTurn::free));
   TRY(merging.degree.assign(cell_count, 0));
   TRY(merging.first_pair.assign(cell_count, k_none));
   for (bool any = true; any;) {
