@@ -201,6 +201,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   TRY(context.enter(Stage::curves));
   TRY(smooth_polylines(context, polylines, flow_smoothing_of(options, scale), input.position.span(),
                        made->normal.span(), &made->noise));
+  inside.noise = made->noise.sigma_position;
   const Status status = flow::build_flow(context, polylines, inside, &made->flow);
   TRY(explain_rounding(status, made->given.span(), made->flow.step));
   TRY(list_voids(made->flow.persistence, Scale(made->exponent), &made->tables.voids));

@@ -38,6 +38,12 @@ uint32_t find_edge(const Complex& complex, uint32_t u, uint32_t v) {
   return low < complex.edge_first[u + 1] && complex.edge[2 * low + 1] == v ? low : k_none;
 }
 
+Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  return cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
+}
+
 static Status take_tets(Context& context, const Delaunay& delaunay, Complex* complex) {
   const size_t count = delaunay.tets.size();
   TRY(complex->tet.resize(4 * count));

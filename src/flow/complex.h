@@ -97,4 +97,7 @@ Status build_complex(Context& context, Span<const Vec3> points, const ComplexOpt
 // The edge between two points (by their numbers in same_as), or k_none.
 uint32_t find_edge(const Complex& complex, uint32_t u, uint32_t v);
 
+// Along the normal of a triangle, twice its area.
+Vec3 cross_of_triangle(const Complex& complex, uint32_t t);
+
 }  // namespace wireskin::flow

@@ -1,13 +1,16 @@
 #include "flow/flat_faces.h"
 
 #include "base/sort.h"
-#include "flow/point_grid.h"
+#include "flow/face_crossings.h"
 #include "num/minmax.h"
 
 namespace wireskin::flow {
 
 static constexpr double k_least_corner = 0.94;  // cosine of what a polygon turns at a corner
-static constexpr double k_beside = 1e-5;        // of the diagonal, from an edge
+// Corners keep their noise, and a plane may go through some that are off it.
+static constexpr double k_noise_off_plane = 3.0;  // times its standard deviation
+static constexpr double k_most_noise = 10.0;      // times what is flat without noise
+static constexpr double k_exact = 0.02;  // of what counts as flat: planes are no matter of choice
 static constexpr uint8_t k_most_visits = 4;
 // Of lines and samples looked at; who draws faces as dense as that gets none.
 static constexpr size_t k_most_work = size_t{1} << 26;
@@ -15,21 +18,8 @@ static constexpr size_t k_flood_per_checkpoint = size_t{1} << 17;
 
 namespace {
 
-struct Plane {
-  Vec3 at, normal;
-};
-
-enum class Crossed : uint8_t { unknown, no, yes };
-
 struct FaceFlood {
-  // For what runs across a triangle: ends of lines, those of them in the plane of a seed; samples
-  // of arcs that bend; what is known of each triangle, and how much was looked at.
-  Array<Vec3> line_end;
-  Array<uint32_t> plane_line;
-  uint32_t plane_line_of = k_none;
-  PointGrid grid;
-  Array<uint32_t> curved;
-  Array<Crossed> crossed;
+  CurvesAcross across;
   size_t work = 0, next_checkpoint = k_flood_per_checkpoint;
   Array<uint32_t> mark;               // of each triangle: the seed whose face it was last in
   Array<uint8_t> visits;              // of each triangle
@@ -38,15 +28,10 @@ struct FaceFlood {
   Array<uint8_t> straight;            // of each edge: on a straight arc
   Array<uint32_t> arc_of;             // of each edge on a curve
   Array<uint32_t> rim_of;             // of each arc: the seed of the face that has it last
-  Array<uint32_t> next_start, next;   // of each vertex: those that segments join it to
   Array<uint32_t> seen, border_edge;  // of each vertex: its edges on the border, and one of them
 
   explicit FaceFlood(Context& context)
-      : line_end(context),
-        plane_line(context),
-        grid(context),
-        curved(context),
-        crossed(context),
+      : across(context),
         mark(context),
         visits(context),
         member(context),
@@ -54,10 +39,9 @@ struct FaceFlood {
         straight(context),
         arc_of(context),
         rim_of(context),
-        next_start(context),
-        next(context),
         seen(context),
         border_edge(context) {}
+  size_t all_work() const { return work + across.work; }
   Status pause() {
     if (work <= next_checkpoint) return {};
     next_checkpoint = work + k_flood_per_checkpoint;
@@ -67,49 +51,16 @@ struct FaceFlood {
 
 }  // namespace
 
-static double twice_area(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
+static FacePlane plane_of(const Complex& complex, uint32_t t, double flat) {
+  return {complex.point[complex.triangle[3 * size_t{t}]], unit(cross_of_triangle(complex, t)),
+          flat};
 }
 
-static Plane plane_of(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return {a, unit(cross(complex.point[v[1]] - a, complex.point[v[2]] - a))};
-}
-
-static bool in_plane(const Complex& complex, const Plane& plane, uint32_t t) {
+static bool in_plane(const Complex& complex, const FacePlane& plane, uint32_t t) {
   for (uint32_t k = 0; k < 3; ++k) {
-    const Vec3& p = complex.point[complex.triangle[3 * size_t{t} + k]];
-    if (std::fabs(dot(p - plane.at, plane.normal)) > k_flat * complex.diagonal) return false;
+    if (!near_plane(plane, complex.point[complex.triangle[3 * size_t{t} + k]])) return false;
   }
   return true;
-}
-
-// What segments of curves join each vertex to.
-static Status link_segments(const Complex& complex, const CurveEdges& curves, FaceFlood* flood) {
-  size_t count = 0;
-  TRY(flood->next_start.assign(complex.point.size() + 1, 0));
-  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
-    if (!curves.on_curve(e)) continue;
-    ++flood->next_start[complex.edge[2 * size_t{e}]];
-    ++flood->next_start[complex.edge[2 * size_t{e} + 1]];
-    count += 2;
-  }
-  TRY(flood->next.resize(count));
-  starts_from_counts(flood->next_start.span());
-  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
-    if (!curves.on_curve(e)) continue;
-    const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
-    flood->next[flood->next_start[a]++] = b;
-    flood->next[flood->next_start[b]++] = a;
-  }
-  for (size_t v = flood->next_start.size() - 1; v > 0; --v) {
-    flood->next_start[v] = flood->next_start[v - 1];
-  }
-  flood->next_start[0] = 0;
-  return {};
 }
 
 // Marks the edges of arcs.
@@ -156,121 +107,8 @@ static bool is_line(const Complex& complex, const CurveEdges& curves, const Stra
   return lines.common(v[0], v[1], v[2]) != k_none;
 }
 
-// Whether a piece of curve from p to q crosses one from a to b in their plane, away from its ends.
-static bool crosses_edge(const Plane& plane, const Vec3& a, const Vec3& b, double margin,
-                         const Vec3& p, const Vec3& q) {
-  const Vec3 along = unit(b - a);
-  const Vec3 across = cross(plane.normal, along);
-  const double at_p = dot(p - a, across), at_q = dot(q - a, across);
-  if (larger(at_p, at_q) < margin || smaller(at_p, at_q) > -margin) return false;
-  const double t = at_p / (at_p - at_q);
-  const double at = dot(p + t * (q - p) - a, along);
-  return at > margin && at < length(b - a) - margin;
-}
-
-// Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or
-// along its edges.
-static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, const Vec3& p,
-                           const Vec3& q) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const double margin = k_beside * complex.diagonal;
-  double from = 0.0, to = 1.0;
-  const Vec3& a = complex.point[v[0]];
-  const Vec3 n = cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
-  const Vec3 up = dot(n, plane.normal) > 0.0 ? plane.normal : -plane.normal;
-  for (uint32_t k = 0; k < 3; ++k) {
-    const Vec3& b = complex.point[v[k]];
-    const Vec3 inward = cross(up, unit(complex.point[v[(k + 1) % 3]] - b));
-    const double at_p = dot(p - b, inward) - margin, at_q = dot(q - b, inward) - margin;
-    if (at_p <= 0.0 && at_q <= 0.0) return false;
-    if (at_p < 0.0) from = larger(from, at_p / (at_p - at_q));
-    if (at_q < 0.0) to = smaller(to, at_p / (at_p - at_q));
-  }
-  return (to - from) * length(q - p) > margin;
-}
-
-// The longest edge of a triangle of samples that are in a row, but on no curve that they have in
-// common, or 3: it has no inside to pass through, yet may reach across curves.
-static uint32_t edge_of_sliver(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  double longest = 0.0;
-  uint32_t at = 0;
-  for (uint32_t k = 0; k < 3; ++k) {
-    const double size = length(complex.point[v[(k + 1) % 3]] - complex.point[v[k]]);
-    if (size > longest) at = k;
-    longest = larger(longest, size);
-  }
-  return twice_area(complex, t) > 4.0 * k_beside * complex.diagonal * longest ? 3 : at;
-}
-
-static bool reaches_across(const Complex& complex, const Plane& plane, uint32_t t, uint32_t sliver,
-                           const Vec3& p, const Vec3& q) {
-  if (sliver == 3) return passes_through(complex, plane, t, p, q);
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]],
-                      k_beside * complex.diagonal, p, q);
-}
-
-static bool near_plane(const Complex& complex, const Plane& plane, const Vec3& p) {
-  return std::fabs(dot(p - plane.at, plane.normal)) <= k_flat * complex.diagonal;
-}
-
-static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_t seed, uint32_t t,
-                             uint32_t sliver, FaceFlood* flood) {
-  const Array<Vec3>& end = flood->line_end;
-  if (flood->plane_line_of != seed) {
-    flood->plane_line_of = seed;
-    flood->plane_line.clear();
-    flood->work += end.size() / 2;
-    for (uint32_t i = 0; i < end.size(); i += 2) {
-      const bool within =
-          near_plane(complex, plane, end[i]) && near_plane(complex, plane, end[i + 1]);
-      if (within) flood->plane_line.push_reserved(i);
-    }
-  }
-  flood->work += flood->plane_line.size();
-  for (const uint32_t i : flood->plane_line) {
-    if (reaches_across(complex, plane, t, sliver, end[i], end[i + 1])) return true;
-  }
-  return false;
-}
-
-// An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that
-// of which the segment is a diameter.
-static bool any_bend_crosses(const Complex& complex, const StraightLines& lines, const Plane& plane,
-                             uint32_t t, uint32_t sliver, FaceFlood* flood) {
-  if (flood->curved.empty()) return false;
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
-  const double size = larger(length(b - a), larger(length(c - b), length(a - c)));
-  return flood->grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t at) {
-    const uint32_t i = flood->curved[at];
-    ++flood->work;
-    if (!near_plane(complex, plane, complex.point[i])) return false;
-    for (uint32_t k = flood->next_start[i]; k < flood->next_start[i + 1]; ++k) {
-      const Vec3& q = complex.point[flood->next[k]];
-      if (!near_plane(complex, plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
-      if (reaches_across(complex, plane, t, sliver, complex.point[i], q)) return true;
-    }
-    return false;
-  });
-}
-
-// Whether a curve runs across the triangle: outermost layers, of huge empty balls outside of the
-// hull, may reach across.
-static bool is_crossed(const Complex& complex, const StraightLines& lines, const Plane& plane,
-                       uint32_t seed, uint32_t t, FaceFlood* flood) {
-  if (flood->crossed[t] == Crossed::unknown) {
-    const uint32_t sliver = edge_of_sliver(complex, t);
-    const bool crossed = any_line_crosses(complex, plane, seed, t, sliver, flood) ||
-                         any_bend_crosses(complex, lines, plane, t, sliver, flood);
-    flood->crossed[t] = crossed ? Crossed::yes : Crossed::no;
-  }
-  return flood->crossed[t] == Crossed::yes;
-}
-
 // Which side of an edge, within the plane, a triangle lies on.
-static bool on_left(const Complex& complex, const Plane& plane, uint32_t e, uint32_t t) {
+static bool on_left(const Complex& complex, const FacePlane& plane, uint32_t e, uint32_t t) {
   const Vec3& a = complex.point[complex.edge[2 * size_t{e}]];
   const Vec3& b = complex.point[complex.edge[2 * size_t{e} + 1]];
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
@@ -280,7 +118,7 @@ static bool on_left(const Complex& complex, const Plane& plane, uint32_t e, uint
 }
 
 // The sides of an edge that the face takes up, a bit each.
-static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const Plane& plane,
+static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const FacePlane& plane,
                          uint32_t seed, uint32_t e) {
   uint32_t sides = 0;
   for (const uint32_t t : complex.triangles_of(e)) {
@@ -290,7 +128,7 @@ static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const P
 }
 
 static Status flood_face(const Complex& complex, const CurveEdges& curves,
-                         const StraightLines& lines, const FlatFaces& faces, const Plane& plane,
+                         const StraightLines& lines, const FlatFaces& faces, const FacePlane& plane,
                          uint32_t seed, FaceFlood* flood) {
   flood->member.clear();
   const auto add = [&](uint32_t t) {
@@ -299,7 +137,7 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     return flood->member.push(t);
   };
   TRY(add(seed));
-  for (size_t i = 0; i < flood->member.size() && flood->work <= k_most_work; ++i) {
+  for (size_t i = 0; i < flood->member.size() && flood->all_work() <= k_most_work; ++i) {
     TRY(flood->pause());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
@@ -309,9 +147,51 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
         if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
         if (is_line(complex, curves, lines, t)) continue;
-        if (!is_crossed(complex, lines, plane, seed, t, flood)) TRY(add(t));
+        if (!is_crossed(complex, lines, plane, seed, t, &flood->across)) TRY(add(t));
       }
     }
+  }
+  return {};
+}
+
+// The plane of the triangles found, and how far off the one before they were at most.
+static FacePlane plane_of_members(const Complex& complex, const FaceFlood& flood,
+                                  const FacePlane& plane, double* off) {
+  Vec3 normal, middle;
+  *off = 0.0;
+  for (const uint32_t t : flood.member) {
+    const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+    const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
+    const Vec3 n = cross(b - a, c - a);
+    if (dot(n, plane.normal) > 0.0) normal += n;
+    if (dot(n, plane.normal) < 0.0) normal -= n;
+    middle += (1.0 / 3.0) * (a - plane.at + (b - plane.at) + (c - plane.at));
+    for (uint32_t k = 0; k < 3; ++k) {
+      *off = larger(*off, std::fabs(dot(complex.point[v[k]] - plane.at, plane.normal)));
+    }
+  }
+  const double share = 1.0 / static_cast<double>(flood.member.size());
+  return {plane.at + share * middle, unit(normal), plane.flat};
+}
+
+// With noise the plane of one triangle is askew: the planes of all that it has in reach follow.
+static Status flood_plane(const Complex& complex, const CurveEdges& curves,
+                          const StraightLines& lines, const FlatFaces& faces, uint32_t seed,
+                          FacePlane* plane, FaceFlood* flood) {
+  constexpr uint32_t k_most_planes = 4;
+  for (uint32_t i = 0; i < k_most_planes; ++i) {
+    TRY(flood_face(complex, curves, lines, faces, *plane, seed, flood));
+    double off = 0.0;
+    const FacePlane next = plane_of_members(complex, *flood, *plane, &off);
+    if (off <= k_exact * plane->flat || i + 1 == k_most_planes) break;
+    if (flood->all_work() > k_most_work || !in_plane(complex, next, seed)) break;
+    for (const uint32_t t : flood->member) {
+      flood->mark[t] = k_none;
+      --flood->visits[t];
+      flood->across.crossed[t] = Crossed::unknown;
+    }
+    flood->across.plane_line_of = k_none;
+    *plane = next;
   }
   return {};
 }
@@ -319,7 +199,7 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
 // Whether the triangle goes on, at each of its edges off the curves, on the other side.
 static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
                               const StraightLines& lines, const FaceFlood& flood,
-                              const Plane& plane, uint32_t seed, uint32_t t) {
+                              const FacePlane& plane, uint32_t seed, uint32_t t) {
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
     if (on_rim(complex, curves, lines, e)) continue;
@@ -331,7 +211,7 @@ static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
 // Leaves only triangles that go on all round: all of a face where curves close it, nothing where
 // not.
 static Status close_face(const Complex& complex, const CurveEdges& curves,
-                         const StraightLines& lines, const Plane& plane, uint32_t seed,
+                         const StraightLines& lines, const FacePlane& plane, uint32_t seed,
                          FaceFlood* flood) {
   Array<uint32_t>& left = flood->left;
   TRY(left.copy(flood->member.span()));
@@ -376,7 +256,7 @@ static bool turns_well(const Complex& complex, uint32_t e, FaceFlood* flood) {
 }
 
 static bool is_polygon(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                       const Plane& plane, uint32_t seed, FaceFlood* flood) {
+                       const FacePlane& plane, uint32_t seed, FaceFlood* flood) {
   double whole = 0.0, straight = 0.0;
   bool corners = true;
   for (const uint32_t t : flood->member) {
@@ -399,16 +279,16 @@ static bool is_polygon(const Complex& complex, const CurveEdges& curves, const S
 }
 
 // Whether a curve goes through the face, from one side to the other.
-static bool is_pierced(const Complex& complex, const Plane& plane, const FaceFlood& flood) {
+static bool is_pierced(const Complex& complex, const FacePlane& plane, const FaceFlood& flood) {
   for (const uint32_t t : flood.member) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t v = complex.triangle[3 * size_t{t} + k];
       bool above = false, below = false, within = false;
-      for (uint32_t i = flood.next_start[v]; i < flood.next_start[v + 1]; ++i) {
-        const double off = dot(complex.point[flood.next[i]] - plane.at, plane.normal);
-        above = above || off > k_flat * complex.diagonal;
-        below = below || off < -k_flat * complex.diagonal;
-        within = within || std::fabs(off) <= k_flat * complex.diagonal;
+      for (uint32_t i = flood.across.next_start[v]; i < flood.across.next_start[v + 1]; ++i) {
+        const double off = dot(complex.point[flood.across.next[i]] - plane.at, plane.normal);
+        above = above || off > plane.flat;
+        below = below || off < -plane.flat;
+        within = within || std::fabs(off) <= plane.flat;
       }
       if (above && below && !within) return true;
     }
@@ -417,7 +297,7 @@ static bool is_pierced(const Complex& complex, const Plane& plane, const FaceFlo
 }
 
 // Notes an arc that has the face on one side.
-static Status add_rim(const Complex& complex, const Plane& plane, uint32_t arc, uint32_t e,
+static Status add_rim(const Complex& complex, const FacePlane& plane, uint32_t arc, uint32_t e,
                       uint32_t sides, uint32_t seed, FaceFlood* flood, FlatFaces* faces) {
   if (flood->rim_of[arc] == seed) return {};
   flood->rim_of[arc] = seed;
@@ -439,7 +319,7 @@ static bool runs_along(const Complex& complex, const Samples& samples, uint32_t 
 }
 
 static Status add_face(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const StraightLines& lines, const Plane& plane, uint32_t seed,
+                       const StraightLines& lines, const FacePlane& plane, uint32_t seed,
                        FaceFlood* flood, FlatFaces* faces) {
   for (const uint32_t t : flood->member) {
     faces->part[t] = faces->polygon.back() != 0 ? FlatPart::polygon : FlatPart::disc;
@@ -467,17 +347,17 @@ static Status add_face(const Complex& complex, const Samples& samples, const Cur
 }
 
 // The plane of an arc that is not straight; none if it has no plane or is not to be looked at.
-static bool plane_of_arc(const Complex& complex, const Samples& samples, uint32_t a, Plane* plane) {
+static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, FacePlane* plane) {
   const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
   const auto at = [&](uint32_t i) { return samples.position[samples.at[i]]; };
   Vec3 normal;
   for (uint32_t i = first + 1; i + 1 <= last; ++i) {
     normal += cross(at(i) - at(first), at(i + 1) - at(first));
   }
-  *plane = {at(first), unit(normal)};
+  *plane = {at(first), unit(normal), flat};
   for (uint32_t i = first; i <= last; ++i) {
     const double off = dot(at(i) - plane->at, plane->normal);
-    if (std::fabs(off) > 0.1 * k_flat * complex.diagonal) return false;
+    if (std::fabs(off) > 0.1 * flat) return false;
   }
   return dot(normal, normal) > 0.0;
 }
@@ -485,18 +365,19 @@ static bool plane_of_arc(const Complex& complex, const Samples& samples, uint32_
 // Triangles at straight arcs, and those in the planes of others, which every face has, largest
 // first.
 static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                         const StraightLines& lines, Array<double>* area, Array<uint32_t>* seeds) {
+                         const StraightLines& lines, double flat, Array<double>* area,
+                         Array<uint32_t>* seeds) {
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
-    Plane plane;
+    FacePlane plane;
     const bool straight = lines.is_straight(a);
-    if (!straight && !plane_of_arc(complex, samples, a, &plane)) continue;
+    if (!straight && !plane_of_arc(samples, a, flat, &plane)) continue;
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
         if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
         if (!straight && !in_plane(complex, plane, t)) continue;
-        (*area)[t] = twice_area(complex, t);
+        (*area)[t] = length(cross_of_triangle(complex, t));
         TRY(seeds->push(t));
       }
     }
@@ -507,53 +388,12 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
   return {};
 }
 
-static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
-                         FaceFlood* flood) {
-  for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
-    const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
-    if (first == last) continue;
-    const uint32_t arc = lines.arc[first];
-    const Vec3 from = complex.point[complex.same_as[samples.at[samples.start[arc]]]];
-    const Vec3 along =
-        complex.point[complex.same_as[samples.at[samples.start[arc + 1] - 1]]] - from;
-    Vec3 low = from, high = from;
-    for (uint32_t i = first; i < last; ++i) {
-      const uint32_t a = lines.arc[i];
-      for (uint32_t end = 0; end < 2; ++end) {
-        const uint32_t at = end == 0 ? samples.start[a] : samples.start[a + 1] - 1;
-        const Vec3& p = complex.point[complex.same_as[samples.at[at]]];
-        if (dot(p - low, along) < 0.0) low = p;
-        if (dot(p - high, along) > 0.0) high = p;
-      }
-    }
-    TRY(flood->line_end.push(low));
-    TRY(flood->line_end.push(high));
-  }
-  return flood->plane_line.reserve(flood->line_end.size());
-}
-
-static Status list_curved(const Complex& complex, const Samples& samples,
-                          const StraightLines& lines, FaceFlood* flood) {
-  Array<Vec3> point(flood->curved.context());
-  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
-    if (lines.is_straight(a)) continue;
-    for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
-      TRY(flood->curved.push(complex.same_as[samples.at[i]]));
-      TRY(point.push(complex.point[flood->curved.back()]));
-    }
-  }
-  return flood->grid.build(point.span());
-}
-
 static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
                           const StraightLines& lines, FaceFlood* flood, FlatFaces* faces) {
   TRY(faces->part.assign(complex.triangle_count(), FlatPart::none));
   TRY(faces->start.push(0));
   TRY(faces->rim_start.push(0));
-  TRY(list_lines(complex, samples, lines, flood));
-  TRY(list_curved(complex, samples, lines, flood));
-  TRY(flood->crossed.assign(complex.triangle_count(), Crossed::unknown));
-  TRY(link_segments(complex, curves, flood));
+  TRY(find_curves_across(complex, samples, curves, lines, &flood->across));
   TRY(flood->mark.assign(complex.triangle_count(), k_none));
   TRY(flood->visits.assign(complex.triangle_count(), 0));
   TRY(flood->seen.assign(complex.point.size(), 0));
@@ -574,18 +414,21 @@ static Status forget_faces(FlatFaces* faces) {
 }
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
+                       const CurveEdges& curves, const StraightLines& lines, double noise,
+                       FlatFaces* faces) {
+  const double flat = k_flat * complex.diagonal;
+  faces->flat = larger(flat, smaller(k_noise_off_plane * noise, k_most_noise * flat));
   FaceFlood flood(context);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
-  TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
+  TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
     if (flood.visits[seed] != 0) continue;
-    const Plane plane = plane_of(complex, seed);
-    if (is_crossed(complex, lines, plane, seed, seed, &flood)) continue;
-    TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
-    if (flood.work > k_most_work) return forget_faces(faces);
+    FacePlane plane = plane_of(complex, seed, faces->flat);
+    if (is_crossed(complex, lines, plane, seed, seed, &flood.across)) continue;
+    TRY(flood_plane(complex, curves, lines, *faces, seed, &plane, &flood));
+    if (flood.all_work() > k_most_work) return forget_faces(faces);
     TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
     TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));

@@ -33,6 +33,7 @@ struct FlatFaces {
   Array<uint32_t> rim_start;
   Array<FaceRim> rim;     // of each face, an arc once
   Array<FlatPart> part;   // of each triangle; a line: its corners lie on one, so in no plane
+  double flat = 0.0;      // a length: what was taken to lie in a plane
   bool given_up = false;  // too much to look at: there are none
 
   explicit FlatFaces(Context& context)
@@ -46,7 +47,9 @@ struct FlatFaces {
   uint32_t size() const { return static_cast<uint32_t>(normal.size()); }
 };
 
+// `noise`: the standard deviation of the samples that was taken out, as corners have theirs still.
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces);
+                       const CurveEdges& curves, const StraightLines& lines, double noise,
+                       FlatFaces* faces);
 
 }  // namespace wireskin::flow

@@ -4,10 +4,10 @@
 
 namespace wireskin::flow {
 
-static constexpr double k_off_plane = 3.0 * k_flat;  // of the diagonal
-static constexpr double k_sideways = 0.05;           // sine of the angle between two faces' planes
-static constexpr double k_same_wall = 0.7;           // cosine of the angle between curves in it
-static constexpr double k_look_along = 0.1;          // of the diagonal
+static constexpr double k_off_plane = 3.0;   // times what counts as flat
+static constexpr double k_sideways = 0.05;   // sine of the angle between two faces' planes
+static constexpr double k_same_wall = 0.7;   // cosine of the angle between curves in it
+static constexpr double k_look_along = 0.1;  // of the diagonal
 
 namespace {
 
@@ -72,7 +72,7 @@ static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
     const uint32_t i = forward ? first + k : last - k;
     const Vec3 to = samples.position[samples.at[i]] - samples.position[samples.at[from]];
     ++search->work;
-    if (std::fabs(dot(to, normal)) > k_off_plane * diagonal) return to;
+    if (std::fabs(dot(to, normal)) > k_off_plane * search->faces->flat) return to;
     if (std::fabs(samples.along[i] - samples.along[from]) > k_look_along * diagonal) break;
   }
   return {};
@@ -96,6 +96,12 @@ static bool runs_on(const LidSearch& search, uint32_t vertex, uint32_t end) {
   return false;
 }
 
+// A curve that ends in mid-air shows no wall.
+static bool is_loose(const LidSearch& search, uint32_t end) {
+  const uint32_t v = vertex_of_end(*search.complex, *search.samples, end);
+  return search.ends.start[v + 1] - search.ends.start[v] == 1;
+}
+
 // Walls that curves show which leave the plane at an end of an arc. Those that leave it far apart,
 // seen along the arc, are in different walls: two on a side are enough to know.
 static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, Sheets* sheets) {
@@ -105,7 +111,7 @@ static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, S
   uint32_t count[2] = {};
   for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
     const uint32_t end = search->ends.end[i];
-    if (end / 2 == rim_end / 2) continue;
+    if (end / 2 == rim_end / 2 || is_loose(*search, end ^ 1)) continue;
     const Vec3 across = unit(reject(leaving(search, end, normal), tangent));
     if (dot(across, across) == 0.0) continue;
     const uint32_t side = dot(across, normal) > 0.0 ? 0 : 1;

@@ -22,6 +22,7 @@ struct FlowOptions {
   double spacing = 0.0;
   bool bend = false;  // the samples are of smooth curves, not corners of polylines
   Lids lids = Lids::single;
+  double noise = 0.0;  // standard deviation of what was taken out of the polylines, a length
   ComplexOptions complex;
 };
 

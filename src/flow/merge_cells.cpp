@@ -29,7 +29,7 @@ struct Merging {
   Array<FacePlace> place;
   Array<CellPair> pair;
   Array<uint32_t> order;
-  Array<CellTurn> turn;                       // of each cell, in this pass
+  Array<CellTurn> turn;                   // of each cell, in this pass
   Array<uint32_t> degree;                 // of each cell: its pairs
   Array<uint32_t> first_pair, next_pair;  // lists of pairs: of each cell, of both sides of a pair
 
@@ -48,14 +48,8 @@ struct Merging {
 
 }  // namespace
 
-static Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
-}
-
 // Lower over its largest face than two layers of a flat face can be.
-static bool is_flat_tet(const Complex& complex, uint32_t t) {
+static bool is_flat_tet(const Complex& complex, uint32_t t, double flat) {
   double largest = 0.0;
   for (uint32_t k = 0; k < 4; ++k) {
     const Vec3 n = cross_of_triangle(complex, complex.tet_triangle[4 * size_t{t} + k]);
@@ -65,7 +59,7 @@ static bool is_flat_tet(const Complex& complex, uint32_t t) {
   const Vec3& a = complex.point[v[0]];
   const double six =
       dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
-  return six <= 2.0 * k_flat * complex.diagonal * std::sqrt(largest);
+  return six <= 2.0 * flat * std::sqrt(largest);
 }
 
 // Cells between faces; what is flat all through, between the layers of a face, joins the cell
@@ -77,7 +71,7 @@ static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces
   TRY(forest->solid.assign(size_t{outside} + 1, 0));
   for (uint32_t i = 0; i <= outside; ++i) {
     forest->parent[i] = i;
-    forest->solid[i] = i == outside || !is_flat_tet(complex, i);
+    forest->solid[i] = i == outside || !is_flat_tet(complex, i, faces.flat);
   }
   Array<uint32_t> separating(forest->parent.context());
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {

@@ -63,6 +63,7 @@ inline Run run(const Net& net, const RunOptions& options = {}) {
   flow_options.sampling = options.eps * diagonal_of(net);
   flow_options.complex.seed = options.seed;
   flow_options.lids = options.lids;
+  flow_options.noise = noise.sigma_position;
   unit::must(flow::build_flow(heap.context, arrays.view(), flow_options, &made));
   flow::Reconstruction result(heap.context);
   flow::ReconstructionOptions wish;

@@ -63,8 +63,9 @@ struct Sum {
 void write_curves(std::FILE* file, const std::vector<Shape>& shapes) {
   std::fprintf(
       file, "%s",
-      "\n## Curves taken away and put back\n\nEach curve of each network of 3 to 16 in turn. "
-      "Patches that differ: without the curve, those that the whole network has\nnot; with it, "
+      "\n## Curves taken away and put back\n\nEach curve of each network of 3 to 16 in turn, the "
+      "number of voids found anew.\nPatches that differ: without the curve, those that the whole "
+      "network has\nnot; with it, "
       "those that the network without it has not (same: the same area to 2 %, the same middle to 1 "
       "% of the diagonal).\nFarthest: the distance of the farthest place that moved by more than 1 "
       "% of the diagonal from the curve, in lengths of the\ncurve; local: it is less than one. "

@@ -18,7 +18,8 @@ struct RimsOf : FlowOf {
 
   explicit RimsOf(const Net& net) : FlowOf(net) {
     must(find_straight_lines(flow.complex, flow.samples, &lines));
-    must(find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, &faces));
+    must(
+        find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, 0.0, &faces));
     must(link_rims(faces, uint32_t(flow.samples.start.size() - 1), &rims));
   }
   CurveFault fault(uint32_t arc) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/robustness.h"
 #include "unit/flow/prisms.h"
 
 using namespace unit;
@@ -19,9 +20,10 @@ struct Faces : FlowOf {
   StraightLines lines{heap.context};
   FlatFaces faces{heap.context};
 
-  explicit Faces(const Net& net) : FlowOf(net) {
+  explicit Faces(const Net& net, double noise = 0.0) : FlowOf(net) {
     must(find_straight_lines(flow.complex, flow.samples, &lines));
-    must(find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, &faces));
+    must(find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, noise,
+                         &faces));
   }
   // What a face's border encloses, by the arcs round it.
   double area(uint32_t f) const {
@@ -59,6 +61,21 @@ TEST_CASE("the faces of a cube are polygons of four arcs") {
   const Faces cube(prism({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, 2.0));
   CHECK((cube.rim_counts() == std::vector<uint32_t>(6, 4)));
   CHECK(cube.whole_area() == doctest::Approx(24.0).epsilon(1e-6));
+}
+
+TEST_CASE("edges that are not quite straight bound faces as well") {
+  for (uint32_t seed = 1; seed <= 4; ++seed) {
+    CAPTURE(seed);
+    const Faces faces(flow_tests::noisy(flow_tests::pyramid(5, 2.0), 1e-4, seed));
+    CHECK((faces.rim_counts() == std::vector<uint32_t>{3, 3, 3, 3, 3, 5}));
+  }
+}
+
+TEST_CASE("with noise a corner may be farther off the plane of a face") {
+  Net cube = prism({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, 2.0);
+  for (uint32_t v = 0; v < 8; ++v) cube.vertex[v] += Vec3{0, 0, (v * 5 % 8) % 3 * 0.03};
+  CHECK(Faces(cube).faces.size() < 6);
+  CHECK(Faces(cube, 0.25 * 0.02).faces.size() == 6);
 }
 
 TEST_CASE("faces need not be convex, nor those of the hull end at it") {

@@ -23,7 +23,8 @@ struct LidsOf : FlowOf {
 
   LidsOf(const Net& net, Lids which) : FlowOf(net) {
     must(find_straight_lines(flow.complex, flow.samples, &lines));
-    must(find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, &faces));
+    must(
+        find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, 0.0, &faces));
     must(link_rims(faces, uint32_t(flow.samples.start.size() - 1), &rims));
     must(find_face_cells(flow.complex, faces, &rims, &cells));
     must(merge_cells(heap.context, flow.samples, lines, faces, &rims, &cells));
@@ -75,6 +76,15 @@ TEST_CASE("where a knob stands on a box there is a hole, and a lid at its end") 
   const LidsOf knob(flow_tests::box_with_knob(4), Lids::single);
   CHECK(knob.count(FaceState::hole) == 1);
   CHECK(knob.count(FaceState::dangling) == 7);  // with the sides of the box
+}
+
+TEST_CASE("a curve that ends in mid-air shows no wall") {
+  Net can = flow_tests::stack({{1, 0}, {1, 2}}, 4);
+  for (uint32_t k = 0; k < 4; ++k) {
+    const uint32_t v = flow_tests::k_round + k * flow_tests::k_round / 4;
+    can.edge(v, can.add(1.3 * can.vertex[v]));
+  }
+  CHECK(LidsOf(can, Lids::all).count(FaceState::dangling) == 2);
 }
 
 TEST_CASE("each network has its own lids") {

@@ -22,7 +22,8 @@ struct MergedOf : FlowOf {
 
   explicit MergedOf(const Net& net) : FlowOf(net) {
     must(find_straight_lines(flow.complex, flow.samples, &lines));
-    must(find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, &faces));
+    must(
+        find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, 0.0, &faces));
     must(link_rims(faces, uint32_t(flow.samples.start.size() - 1), &rims));
     must(find_face_cells(flow.complex, faces, &rims, &cells));
   }

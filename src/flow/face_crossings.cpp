@@ -1,0 +1,198 @@
+#include "flow/face_crossings.h"
+
+#include "num/minmax.h"
+
+namespace wireskin::flow {
+
+static constexpr double k_beside = 1e-5;  // of the diagonal, from an edge
+
+// What segments of curves join each vertex to.
+static Status link_segments(const Complex& complex, const CurveEdges& curves,
+                            CurvesAcross* across) {
+  size_t count = 0;
+  TRY(across->next_start.assign(complex.point.size() + 1, 0));
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (!curves.on_curve(e)) continue;
+    ++across->next_start[complex.edge[2 * size_t{e}]];
+    ++across->next_start[complex.edge[2 * size_t{e} + 1]];
+    count += 2;
+  }
+  TRY(across->next.resize(count));
+  starts_from_counts(across->next_start.span());
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (!curves.on_curve(e)) continue;
+    const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
+    across->next[across->next_start[a]++] = b;
+    across->next[across->next_start[b]++] = a;
+  }
+  for (size_t v = across->next_start.size() - 1; v > 0; --v) {
+    across->next_start[v] = across->next_start[v - 1];
+  }
+  across->next_start[0] = 0;
+  return {};
+}
+
+// Whether a piece of curve from p to q crosses one from a to b in their plane, away from its ends.
+static bool crosses_edge(const FacePlane& plane, const Vec3& a, const Vec3& b, double margin,
+                         const Vec3& p, const Vec3& q) {
+  const Vec3 along = unit(b - a);
+  const Vec3 across = cross(plane.normal, along);
+  const double at_p = dot(p - a, across), at_q = dot(q - a, across);
+  if (larger(at_p, at_q) < margin || smaller(at_p, at_q) > -margin) return false;
+  const double t = at_p / (at_p - at_q);
+  const double at = dot(p + t * (q - p) - a, along);
+  return at > margin && at < length(b - a) - margin;
+}
+
+// Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or
+// along its edges.
+static bool passes_through(const Complex& complex, const FacePlane& plane, uint32_t t,
+                           double margin, const Vec3& p, const Vec3& q) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  double from = 0.0, to = 1.0;
+  const Vec3& a = complex.point[v[0]];
+  const Vec3 n = cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
+  const Vec3 up = dot(n, plane.normal) > 0.0 ? plane.normal : -plane.normal;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3& b = complex.point[v[k]];
+    const Vec3 inward = cross(up, unit(complex.point[v[(k + 1) % 3]] - b));
+    const double at_p = dot(p - b, inward) - margin, at_q = dot(q - b, inward) - margin;
+    if (at_p <= 0.0 && at_q <= 0.0) return false;
+    if (at_p < 0.0) from = larger(from, at_p / (at_p - at_q));
+    if (at_q < 0.0) to = smaller(to, at_p / (at_p - at_q));
+  }
+  return (to - from) * length(q - p) > margin;
+}
+
+// The longest edge of a triangle of samples that are in a row, but on no curve that they have in
+// common, or 3: it has no inside to pass through, yet may reach across curves.
+static uint32_t edge_of_sliver(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  double longest = 0.0;
+  uint32_t at = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const double size = length(complex.point[v[(k + 1) % 3]] - complex.point[v[k]]);
+    if (size > longest) at = k;
+    longest = larger(longest, size);
+  }
+  return length(cross_of_triangle(complex, t)) > 4.0 * k_beside * complex.diagonal * longest ? 3
+                                                                                             : at;
+}
+
+static bool reaches_across(const Complex& complex, const FacePlane& plane, uint32_t t,
+                           uint32_t sliver, double margin, const Vec3& p, const Vec3& q) {
+  if (sliver == 3) return passes_through(complex, plane, t, margin, p, q);
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]], margin,
+                      p, q);
+}
+
+static bool any_line_crosses(const Complex& complex, const FacePlane& plane, uint32_t seed,
+                             uint32_t t, uint32_t sliver, CurvesAcross* across) {
+  const Array<Vec3>& end = across->line_end;
+  if (across->plane_line_of != seed) {
+    across->plane_line_of = seed;
+    across->plane_line.clear();
+    across->work += end.size() / 2;
+    for (uint32_t i = 0; i < end.size(); i += 2) {
+      const bool within = near_plane(plane, end[i]) && near_plane(plane, end[i + 1]);
+      if (within) across->plane_line.push_reserved(i);
+    }
+  }
+  across->work += across->plane_line.size();
+  for (const uint32_t i : across->plane_line) {
+    const double margin = k_beside * complex.diagonal + across->line_bend[i / 2];
+    if (reaches_across(complex, plane, t, sliver, margin, end[i], end[i + 1])) return true;
+  }
+  return false;
+}
+
+// An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that
+// of which the segment is a diameter.
+static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
+                             const FacePlane& plane, uint32_t t, uint32_t sliver,
+                             CurvesAcross* across) {
+  if (across->curved.empty()) return false;
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
+  const double size = larger(length(b - a), larger(length(c - b), length(a - c)));
+  const double margin = k_beside * complex.diagonal;
+  return across->grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t at) {
+    const uint32_t i = across->curved[at];
+    ++across->work;
+    if (!near_plane(plane, complex.point[i])) return false;
+    for (uint32_t k = across->next_start[i]; k < across->next_start[i + 1]; ++k) {
+      const Vec3& q = complex.point[across->next[k]];
+      if (!near_plane(plane, q) || lines.common(i, across->next[k]) != k_none) continue;
+      if (reaches_across(complex, plane, t, sliver, margin, complex.point[i], q)) return true;
+    }
+    return false;
+  });
+}
+
+static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
+                         CurvesAcross* across) {
+  for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
+    const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
+    if (first == last) continue;
+    const uint32_t arc = lines.arc[first];
+    const Vec3 from = complex.point[complex.same_as[samples.at[samples.start[arc]]]];
+    const Vec3 along =
+        complex.point[complex.same_as[samples.at[samples.start[arc + 1] - 1]]] - from;
+    Vec3 low = from, high = from;
+    for (uint32_t i = first; i < last; ++i) {
+      const uint32_t a = lines.arc[i];
+      for (uint32_t end = 0; end < 2; ++end) {
+        const uint32_t at = end == 0 ? samples.start[a] : samples.start[a + 1] - 1;
+        const Vec3& p = complex.point[complex.same_as[samples.at[at]]];
+        if (dot(p - low, along) < 0.0) low = p;
+        if (dot(p - high, along) > 0.0) high = p;
+      }
+    }
+    double bend = 0.0;
+    for (uint32_t i = first; i < last; ++i) {
+      for (uint32_t k = samples.start[lines.arc[i]]; k < samples.start[lines.arc[i] + 1]; ++k) {
+        const Vec3& p = complex.point[complex.same_as[samples.at[k]]];
+        bend = larger(bend, length(reject(p - low, unit(high - low))));
+      }
+    }
+    TRY(across->line_bend.push(bend));
+    TRY(across->line_end.push(low));
+    TRY(across->line_end.push(high));
+  }
+  return across->plane_line.reserve(across->line_end.size());
+}
+
+static Status list_curved(const Complex& complex, const Samples& samples,
+                          const StraightLines& lines, CurvesAcross* across) {
+  Array<Vec3> point(across->curved.context());
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    if (lines.is_straight(a)) continue;
+    for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
+      TRY(across->curved.push(complex.same_as[samples.at[i]]));
+      TRY(point.push(complex.point[across->curved.back()]));
+    }
+  }
+  return across->grid.build(point.span());
+}
+
+Status find_curves_across(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                          const StraightLines& lines, CurvesAcross* across) {
+  TRY(list_lines(complex, samples, lines, across));
+  TRY(list_curved(complex, samples, lines, across));
+  TRY(across->crossed.assign(complex.triangle_count(), Crossed::unknown));
+  return link_segments(complex, curves, across);
+}
+
+bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
+                uint32_t seed, uint32_t t, CurvesAcross* across) {
+  if (across->crossed[t] == Crossed::unknown) {
+    const uint32_t sliver = edge_of_sliver(complex, t);
+    const bool crossed = any_line_crosses(complex, plane, seed, t, sliver, across) ||
+                         any_bend_crosses(complex, lines, plane, t, sliver, across);
+    across->crossed[t] = crossed ? Crossed::yes : Crossed::no;
+  }
+  return across->crossed[t] == Crossed::yes;
+}
+
+}  // namespace wireskin::flow

@@ -1,0 +1,55 @@
+// Which triangles in a plane a curve runs across: these are in no flat face.
+//
+// In: the complex and the curves in it; a plane and a triangle. Out: yes or no, kept for the next
+// time. Beside a triangle or along its edges is not across; nor is a straight line that its own
+// samples are as far off. Outermost layers of flat tetrahedra, of huge empty balls outside of the
+// hull, reach across curves, as do slivers of samples in a row. Cost for a triangle: the straight
+// lines in its plane, and the samples of others near it. Source: own.
+#pragma once
+
+#include "flow/point_grid.h"
+#include "flow/straight_lines.h"
+
+namespace wireskin::flow {
+
+struct FacePlane {
+  Vec3 at, normal;
+  double flat;  // what is nearer lies in it
+};
+
+enum class Crossed : uint8_t { unknown, no, yes };
+
+struct CurvesAcross {
+  Array<Vec3> line_end;        // two of each line
+  Array<double> line_bend;     // of each line: how far its samples are off it
+  Array<uint32_t> plane_line;  // those in the plane of a seed
+  uint32_t plane_line_of = k_none;
+  PointGrid grid;
+  Array<uint32_t> curved;            // samples of arcs that bend
+  Array<uint32_t> next_start, next;  // of each vertex: those that segments join it to
+  Array<Crossed> crossed;            // of each triangle
+  size_t work = 0;                   // how much was looked at
+
+  explicit CurvesAcross(Context& context)
+      : line_end(context),
+        line_bend(context),
+        plane_line(context),
+        grid(context),
+        curved(context),
+        next_start(context),
+        next(context),
+        crossed(context) {}
+};
+
+inline bool near_plane(const FacePlane& plane, const Vec3& p) {
+  return std::fabs(dot(p - plane.at, plane.normal)) <= plane.flat;
+}
+
+Status find_curves_across(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                          const StraightLines& lines, CurvesAcross* across);
+
+// `seed` tells planes apart.
+bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
+                uint32_t seed, uint32_t t, CurvesAcross* across);
+
+}  // namespace wireskin::flow
