@@ -19,7 +19,7 @@ static constexpr double k_third_share = 0.5, k_third_cosine = 0.25, k_third_near
 namespace {
 
 // The border of a patch from afar.
-struct Outline {
+struct RingOutline {
   Vec3 centre;
   double length;
   bool ring;  // a side of a closed curve that meets no other
@@ -27,7 +27,7 @@ struct Outline {
 
 struct Rings {
   Grouping* g;
-  Array<Outline> outline;  // of each patch
+  Array<RingOutline> outline;  // of each patch
   RingBands bands;
   Array<uint32_t> partner;  // of each side
   Array<uint8_t> doubtful;  // of each side: another choice is hardly worse
@@ -73,9 +73,9 @@ static Status leave_rings_near_others(Rings* rings) {
     if (!rings->outline[p].ring) TRY(others.push(p));
   }
   for (size_t i = 0; i < others.size(); ++i) {
-    const Outline other = rings->outline[others[i]];
+    const RingOutline other = rings->outline[others[i]];
     for (uint32_t p = 0; p < rings->outline.size(); ++p) {
-      Outline* own = &rings->outline[p];
+      RingOutline* own = &rings->outline[p];
       const double reach = k_others_reach * (own->length + other.length);
       if (!own->ring || !(length(own->centre - other.centre) < reach)) continue;
       own->ring = false;
