@@ -385,16 +385,27 @@ static Status triangulate_loops(Context& context, const Loops& loops, Array<Vec3
   return put_back(kept, triangle);
 }
 
-// Refines a copy of the triangulation; `*sound`: whether it has area, and no needle.
-static Status refine_copy(const Loops& loops, double spacing, const LoopMesh& coarse,
-                          Array<Vec3>* point, Array<uint32_t>* triangle, bool* sound) {
-  Context& context = point->context();
+static bool has_sound_area(const Loops& loops, Span<const Vec3> point,
+                           Span<const uint32_t> triangle) {
   const double perimeter = perimeter_of(loops);
+  return sound_area(point, triangle) > k_no_area * perimeter * perimeter;
+}
+
+static Status take_unrefined(const Loops& loops, const LoopMesh& coarse, Array<Vec3>* point,
+                             Array<uint32_t>* triangle, bool* sound) {
   TRY(point->copy(loops.position));
   for (const Vec3& p : coarse.inner) TRY(point->push(p));
   TRY(triangle->copy(coarse.triangle.span()));
-  TRY(refine_loops(context, spacing, loops.start, point, triangle));
-  *sound = sound_area(point->span(), triangle->span()) > k_no_area * perimeter * perimeter;
+  *sound = has_sound_area(loops, point->span(), triangle->span());
+  return {};
+}
+
+// Refines a copy of the triangulation; `*sound`: whether it has area, and no needle.
+static Status refine_copy(const Loops& loops, double spacing, const LoopMesh& coarse,
+                          Array<Vec3>* point, Array<uint32_t>* triangle, bool* sound) {
+  TRY(take_unrefined(loops, coarse, point, triangle, sound));
+  TRY(refine_loops(point->context(), spacing, loops.start, point, triangle));
+  *sound = has_sound_area(loops, point->span(), triangle->span());
   return {};
 }
 
@@ -406,11 +417,12 @@ Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh
   Array<uint32_t> triangle(context);
   TRY(triangulate_loops(context, loops, &coarse.inner, &coarse.triangle));
   // Where a border has edges far shorter than the rest the points added may line up with two others
-  // in a triangle that no flip removes: fewer of them do not.
+  // in a triangle that no flip removes: fewer of them do not, and none at the last.
   bool sound = false;
   for (int k = 0; k < k_tries && !sound; ++k) {
     TRY(refine_copy(loops, spacing * (1 << k), coarse, &point, &triangle, &sound));
   }
+  if (!sound) TRY(take_unrefined(loops, coarse, &point, &triangle, &sound));
   if (!sound) return fail(Code::patch_folded, "the border of the patch encloses no area");
   const size_t n = loops.position.size();
   TRY(mesh->inner.copy(point.span().part(n, point.size() - n)));

@@ -9,7 +9,8 @@
 // the loops' vertices alone by dynamic programming, least in the sum of area * (1 + k (1 - cos))
 // with the angle between a triangle and the mean of its normals, k 2 or for several loops 8;
 // several loops become one by bridges, the shortest along which their conormals lead. Then
-// mesh/loop_refine.h. At most k_most_kept vertices or so take part in the first, so its cost is
+// mesh/loop_refine.h, at 2, 4 and 8 times the spacing where that leaves a needle, and not at all
+// where these do. At most k_most_kept vertices or so take part in the first, so its cost is
 // bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the
 // Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003.
 #pragma once

@@ -21,17 +21,13 @@ static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, con
   return dot(gap, gap);
 }
 
-static double along_axis(const Vec3& p, uint32_t axis) {
-  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 static uint32_t widest_axis(Span<const Vec3> position) {
   uint32_t widest = 0;
   double most = -1.0;
   for (uint32_t axis = 0; axis < 3; ++axis) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const Vec3& p : position) {
-      const double at = along_axis(p, axis);
+      const double at = coordinate(p, axis);
       low = at < low ? at : low;
       high = at > high ? at : high;
     }
@@ -59,7 +55,7 @@ static Status find_crossing(const Border& border, double perimeter) {
   TRY(order.resize(border.size()));
   for (uint32_t i = 0; i < border.size(); ++i) order[i] = i;
   const auto low = [&](uint32_t i) {
-    const double from = along_axis(position[i], axis), to = along_axis(position[next[i]], axis);
+    const double from = coordinate(position[i], axis), to = coordinate(position[next[i]], axis);
     return from < to ? from : to;
   };
   sort(order.span(),

@@ -4,7 +4,7 @@
 // or for crossings (network/linking.h).
 //
 // In: the loops of a border with their normals (zero: unknown). Out: a status without place.
-// O(n^2), though mostly for network/linking.h.
+// O(n log n) and the pairs of edges whose extents meet along an axis.
 #pragma once
 
 #include "network/border.h"

@@ -119,6 +119,45 @@ static void judge_by_area(const Graph& graph, const Cycles& cycles, uint32_t h, 
   judged->outside[area < 0.0 ? c : rival] = 1;
 }
 
+// A curve that hangs by one end in a cycle whose other segments are all boundary, k_none where the
+// cycle has other segments, too.
+static uint32_t hanging_in_border(const Graph& graph, const Cycles& cycles, uint32_t cycle) {
+  uint32_t hanging = k_none;
+  for (uint32_t h = 0; h < cycles.next.size(); ++h) {
+    if (cycles.cycle[h] != cycle || graph.segment_of(h).boundary) continue;
+    if (!two_sided(cycles, h)) return k_none;
+    if (hanging == k_none) hanging = h;
+  }
+  return hanging;
+}
+
+// What is wrong at a boundary segment h that has no surface, or surface on both sides.
+static Status name_bad_border(const Graph& graph, const Cycles& cycles, Span<const uint8_t> inner,
+                              uint32_t h) {
+  const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
+  const char* sentence =
+      "this boundary curve has patches of other curves on both sides: every curve of a border must "
+      "be tagged as boundary, and no other, and normals must not point away from the surface";
+  uint32_t at = h;
+  if (a == b) {
+    sentence =
+        "the same patch lies on both sides of this boundary curve: it hangs by one end, or normals "
+        "where it ends point away from the surface";
+  } else if (!inner[a] && !inner[b]) {
+    sentence = "the normals do not tell on which side of this boundary curve the surface lies";
+  } else {
+    const uint32_t in_a = hanging_in_border(graph, cycles, a);
+    const uint32_t hanging = in_a != k_none ? in_a : hanging_in_border(graph, cycles, b);
+    if (hanging != k_none) {
+      at = hanging;
+      sentence = "this curve leads away from a border, out to where there is no surface";
+    }
+  }
+  const Segment& segment = graph.segment_of(at);
+  return fail_at_sample(Code::open_network, sentence, segment.curve,
+                        graph.curve_of(at).sample[segment.first_knot]);
+}
+
 // Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for
 // sure, or else when they run clockwise.
 static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* judged,
@@ -149,17 +188,8 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* jud
     const Segment& segment = graph.segment_of(h);
     const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
     const int sides = !judged->outside[a] + !judged->outside[b];
-    const char* sentence = nullptr;
-    if (segment.boundary && sides != 1) {
-      sentence = !inner[a] && !inner[b] && a != b
-                     ? "the normals do not tell on which side of this boundary curve the surface "
-                       "lies"
-                     : "this boundary curve has the surface on both sides: every curve of a border "
-                       "must be tagged as boundary, and no other";
-    }
-    if (sentence == nullptr) continue;
-    const Status status = fail_at_sample(Code::open_network, sentence, segment.curve,
-                                         graph.curve_of(h).sample[segment.first_knot]);
+    if (!segment.boundary || sides == 1) continue;
+    const Status status = name_bad_border(graph, cycles, inner.span(), h);
     if (faults == nullptr) return status;
     (*faults)[h / 2] = status;
   }

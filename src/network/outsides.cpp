@@ -15,6 +15,13 @@ static bool bounds_others(const Network& network, Span<const uint32_t> patch_of,
   return true;
 }
 
+static Status name_leading_out(const Network& network, uint32_t p) {
+  Place place;
+  place.curve = network.segment[network.inner[p][0]].curve;
+  return fail(Code::open_network,
+              "this curve leads away from a border, out to where there is no surface", place);
+}
+
 Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network* network,
                      Array<Status>* faults, Array<uint32_t>* original) {
   Context& context = nodes->context();
@@ -29,10 +36,11 @@ Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network*
   }
   uint32_t outsides = 0;
   for (uint32_t p = 0; p < patches; ++p) {
-    if (!network->inner[p].empty() || !network->point[p].empty()) continue;
     if (!bounds_others(*network, patch_of.span(), status.span(), p)) continue;
     TRY(border_of_patch(*network, vertices, p, &border));
     if (!runs_clockwise(border)) continue;
+    if (!network->inner[p].empty() && faults->empty()) return name_leading_out(*network, p);
+    if (!network->inner[p].empty() || !network->point[p].empty()) continue;
     status[p] = fail(Code::patch_without_plane, "outside");
     ++outsides;
     if (p % 1024 == 1023) TRY(context.checkpoint());

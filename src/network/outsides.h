@@ -2,8 +2,9 @@
 // they run clockwise round their own normals.
 //
 // In: nodes, network and vertices of its curves. Out: nodes and network without such patches, the
-// curves there being boundary. A patch that holds curves or points is kept, and so is one without
-// which a curve would bound nothing: they fail later, with their place. Which side of a closed
+// curves there being boundary. A patch without which a curve would bound nothing is kept, and so is
+// one that holds points: they fail later, with their place. One that holds curves fails here with
+// open_network and names the first of them, but where faults are collected it fails later. Which side of a closed
 // curve has the surface cannot be told for tubes and domes, whose normals stand across the vector
 // area of their ends: those have to be tagged. O(border).
 #pragma once

@@ -74,10 +74,6 @@ Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool 
 
 // ---- The tree -----------------------------------------------------------------------------------
 
-static double coordinate(const Vec3& p, int axis) {
-  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 static SightBox box_of(const SightMap& map, uint32_t first, uint32_t count) {
   SightBox box = {map.place[map.order[first]].position, {}, first, count, k_none};
   box.high = box.low;
@@ -92,7 +88,7 @@ static SightBox box_of(const SightMap& map, uint32_t first, uint32_t count) {
 // Sorts the places of a box along its longest side.
 static void sort_box(const SightBox& box, SightMap* map) {
   const Vec3 side = box.high - box.low;
-  const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+  const uint32_t axis = side.x >= side.y && side.x >= side.z ? 0u : side.y >= side.z ? 1u : 2u;
   sort(map->order.span().part(box.first, box.count), [map, axis](uint32_t a, uint32_t b) {
     const double x = coordinate(map->place[a].position, axis);
     const double y = coordinate(map->place[b].position, axis);

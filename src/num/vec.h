@@ -74,6 +74,11 @@ inline double length(const Vec3& a) {
   return std::sqrt(dot(a, a));
 }
 
+// Axis 0, 1 or 2.
+inline double coordinate(const Vec3& a, uint32_t axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+
 // The unit vector along `a`; the zero vector stays zero.
 inline Vec3 unit(const Vec3& a) {
   const double norm = length(a);

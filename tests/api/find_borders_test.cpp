@@ -107,8 +107,20 @@ TEST_CASE("found borders: a curve that only the outside holds is not lost withou
     for (int i = 0; i < 3; ++i) antenna.normals.push_back(antenna.normals[static_cast<size_t>(i)]);
     antenna.nodes.push_back(k == 4 ? 9999 : WSK_NONE);
   }
+  const uint32_t own = static_cast<uint32_t>(scene.curves.size());
   scene.curves.push_back(antenna);
   const Built b(scene, true);
-  CHECK(b.report.status != WSK_OK);
+  CHECK(b.report.status == WSK_ERROR_OPEN_NETWORK);
+  CHECK(b.report.curve == own);
+  CHECK(std::string(b.report.sentence) ==
+        "this curve leads away from a border, out to where there is no surface");
   CHECK(b.report.found_borders == 0);
+  // So it does where the border is tagged.
+  scenes::Scene tagged = scenes::saddle();
+  tagged.curves.push_back(antenna);
+  const Built t(tagged, false);
+  CHECK(t.report.status == WSK_ERROR_OPEN_NETWORK);
+  CHECK(t.report.curve == own);
+  CHECK(std::string(t.report.sentence) ==
+        "this curve leads away from a border, out to where there is no surface");
 }
