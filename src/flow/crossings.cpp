@@ -206,6 +206,14 @@ static CrossingGrid choose_grid(Span<const Vec3> position, Span<const uint32_t> 
   return grid;
 }
 
+// Triangles that lie close are many in some cells, so the pairs that are looked at are counted.
+static Status pause_after_pairs(Context& context, uint32_t* pairs) {
+  constexpr uint32_t k_pairs_per_checkpoint = 1024;
+  if (++*pairs < k_pairs_per_checkpoint) return {};
+  *pairs = 0;
+  return context.checkpoint();
+}
+
 Status find_crossings(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                       size_t most, Array<uint32_t>* pairs) {
   pairs->clear();
@@ -228,6 +236,7 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
   for (size_t c = start.size() - 1; c > 0; --c) start[c] = start[c - 1];
   start[0] = 0;
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
+  uint32_t looked_at = 0;
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
     const Box box = box_of(position, &triangle[3 * size_t{t}]);
     Array<uint32_t>& found = *pairs;
@@ -239,6 +248,8 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
         met[other] = t;
         const uint32_t* const corners = &triangle[3 * size_t{other}];
         if (apart(box, box_of(position, corners))) continue;
+        if (status.ok()) status = pause_after_pairs(context, &looked_at);
+        if (!status.ok()) return;
         if (!triangles_cross(position, corners, &triangle[3 * size_t{t}])) continue;
         if (status.ok()) status = found.push(other);
         if (status.ok()) status = found.push(t);

@@ -428,11 +428,13 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   }
   TRY(mesh::triangle_shapes(input.position, input.triangle, &shapes));
   TRY(make_split_mesh(input, normal, shapes.span(), &split));
+  TRY(context_.checkpoint());
   TRY(area.resize(n));
   mesh::mixed_voronoi_areas(input.triangle, shapes.span(), area.span());
   TRY(mesh::cotangent_laplacian(n, input.triangle, shapes.span(), &laplacian));
   TRY(number_unknowns(input.held));
   TRY(make_rows(input, split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
+  TRY(context_.checkpoint());
   TRY(weight.resize(rows.rows));
   TRY(target.resize(rows.rows));
   make_targets(input, split, area.span(), normal, weight.span(), target.span());
@@ -444,6 +446,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
       rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
     }
   }
+  TRY(context_.checkpoint());
   const WeightedRows system = {rows, weight.span(), rhs.span()};
   bool solved = false;
   if (factorisations_ > 0 && !iterative_) {

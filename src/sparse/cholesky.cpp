@@ -391,7 +391,7 @@ void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
 }
 
 Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 24;
+  constexpr size_t k_work_per_checkpoint = size_t{1} << 23;
   *work += size_t{supernodes_.height(s)} * supernodes_.width(s) * lanes;
   if (*work < k_work_per_checkpoint) return {};
   *work = 0;

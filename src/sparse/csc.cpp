@@ -59,6 +59,7 @@ Status transpose(const Csc& a, Csc* result) {
   starts_from_counts(result->start.span());
   TRY(next.copy(result->start.span()));
   for (uint32_t j = 0; j < a.cols; ++j) {
+    TRY(checkpoint_at_column(a.start.context(), j));
     for (uint32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
       const uint32_t to = next[a.row[k]]++;
       result->row[to] = j;

@@ -66,19 +66,22 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
 }
 
 // About the number of entries of the product, from every 32nd column.
-static uint64_t estimate_entries(const Factors& factors, Accumulator* gathered, size_t* work) {
+static Status estimate_entries(const Factors& factors, Accumulator* gathered, size_t* work,
+                               size_t* entries) {
   constexpr uint32_t k_step = 32;
-  uint64_t total = 0;
+  size_t total = 0;
   uint32_t j = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
     if (factors.unknown[column] == k_none) continue;
     if (j % k_step == 0) {
       gather_column(factors, column, j, gathered, work);
       total += gathered->count;
+      TRY(pause_for_checkpoint(gathered->mark.context(), work));
     }
     ++j;
   }
-  return total * k_step;
+  *entries = total * k_step;
+  return {};
 }
 
 // Room for one more column, and where there was none, for some more.
@@ -96,7 +99,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   Context& context = product->start.context();
   const Factors factors = {a, weight, b, unknown, part};
   Accumulator gathered(context);
-  size_t work = 0, room = 0;
+  size_t work = 0, room = 0, entries = 0;
   TRY(gathered.mark.assign(unknowns, k_none));
   TRY(gathered.sum.assign(unknowns, 0.0));
   TRY(gathered.rows.resize(size_t{unknowns} + 1));
@@ -104,7 +107,8 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   product->rows = product->cols = unknowns;
   product->row.clear();
   product->value.clear();
-  TRY(make_room(estimate_entries(factors, &gathered, &work), &room, product));
+  TRY(estimate_entries(factors, &gathered, &work, &entries));
+  TRY(make_room(entries, &room, product));
   for (uint32_t& m : gathered.mark) m = k_none;
   uint32_t j = 0;
   for (uint32_t column = 0; column < b.cols; ++column) {
