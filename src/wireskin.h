@@ -198,7 +198,8 @@ enum {
   WSK_METHOD_ITERATED = 4,
   /* The default: ITERATED, then up to six steps of minimum variation along the normals (after H.
      Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992), in which the
-     normals on the curves bind. A patch whose displacement runs away keeps what ITERATED gave. */
+     normals on the curves bind. A patch whose displacement runs away keeps what ITERATED gave; so
+     do all where triangles are too thin for these steps. */
   WSK_METHOD_FAIR = 5,
   WSK_METHOD_COUNT = 6
 };

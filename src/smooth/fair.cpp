@@ -183,6 +183,20 @@ static void freeze(const FairMesh& mesh, uint32_t patch, Guard* guard) {
   }
 }
 
+// Puts all patches back that are not frozen.
+static void freeze_all(const FairMesh& mesh, Guard* guard, FairReport* report) {
+  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+    const uint32_t patch = mesh.patch[h / 3];
+    if (guard->frozen[patch]) continue;
+    const uint32_t v = guard->triangle[h];
+    mesh.triangle[h] = v;
+    mesh.position[v] = guard->position[v];
+    guard->still[v] = guard->kept[v] = 1;
+    hold_back(mesh, patch, report);
+  }
+  for (uint8_t& frozen : guard->frozen) frozen = 1;
+}
+
 // Compares the displacements of each patch with its size, before they are applied.
 static Status watch(Context& context, const FairMesh& mesh, Span<const double> step, Guard* guard,
                     FairReport* report) {
@@ -285,9 +299,18 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   MinimumVariation solver(context);
   const double smoothing_length = options.smoothness * mean_patch_size(guard);
   for (int k = 0; k < options.displacement_steps; ++k) {
-    TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), foretold, &solver,
-                          &guard, report));
+    const Status moved = displacement_step(context, mesh, smoothing_length, curve_normal.span(),
+                                           foretold, &solver, &guard, report);
+    // Triangles too thin for a system of this order may do for those before.
+    const bool singular = moved.code == Code::not_positive_definite;
+    if (singular) {
+      freeze_all(mesh, &guard, report);
+    } else {
+      TRY(moved);
+      report->residual = solver.residual();
+    }
     TRY(unfold(context, mesh, guard, &safe));
+    if (singular) break;
     double greatest = 0.0;
     for (size_t p = 0; p < guard.step.size(); ++p) {
       if (!guard.frozen[p] && guard.step[p] > greatest) greatest = guard.step[p];
@@ -295,7 +318,6 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     if (greatest < k_small_step) break;
   }
   put_back_folded(mesh, safe, report);
-  if (options.displacement_steps > 0) report->residual = solver.residual();
   report->factorisations = solver.factorisations();
   report->iterations = solver.iterations();
   return {};

@@ -6,7 +6,7 @@
 // shapes of the triangles in which the harmonic start is computed. Out: positions, propagated
 // normals, triangles (edges inside patches may be flipped). A patch whose displacement runs away
 // (more than a quarter of its size, or growing) is put back to what the paper's steps gave and
-// stays there. After every step folds are taken out; a patch that ends with one goes back to its
+// stays there; so are all if a step's system is singular. After every step folds are taken out; a patch that ends with one goes back to its
 // last state without. Cost: one factorisation of size n for the start, one for each of two paper
 // steps, one of size 2 n for the displacements, more where it no longer serves the later ones.
 // Sources: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016; H. Moreton, C.
