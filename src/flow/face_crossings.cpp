@@ -195,8 +195,23 @@ Status find_curves_across(const Complex& complex, const Samples& samples, const 
   return link_segments(complex, curves, across);
 }
 
+// The complex is embedded: where no flat tetrahedron lies at a triangle no edge runs over it.
+static bool has_flat_neighbour(const Complex& complex, const FacePlane& plane, uint32_t t) {
+  for (uint32_t side = 0; side < 2; ++side) {
+    const uint32_t tet = complex.triangle_side[2 * size_t{t} + side];
+    if (tet == k_none) continue;
+    bool flat = true;
+    for (uint32_t k = 0; k < 4; ++k) {
+      flat = flat && near_plane(plane, complex.point[complex.tet[4 * size_t{tet} + k]]);
+    }
+    if (flat) return true;
+  }
+  return false;
+}
+
 bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
                 uint32_t seed, uint32_t t, CurvesAcross* across) {
+  if (!has_flat_neighbour(complex, plane, t)) return false;
   if (across->crossed[t] == Crossed::unknown) {
     const PlaneTriangle triangle = place_triangle(complex, plane, t);
     const bool crossed = any_line_crosses(complex, plane, seed, triangle, across) ||
