@@ -32,6 +32,18 @@ static Status link_segments(const Complex& complex, const CurveEdges& curves,
   return {};
 }
 
+namespace {
+
+struct PlaneTriangle {
+  Vec3 corner[3], inward[3];  // of the edge from each corner
+  double longest = 0.0;
+  // The longest edge, where the corners are in a row, but on no curve that they have in common: it
+  // has no inside to pass through, yet may reach across curves. Else 3.
+  uint32_t sliver = 3;
+};
+
+}  // namespace
+
 // Whether a piece of curve from p to q crosses one from a to b in their plane, away from its ends.
 static bool crosses_edge(const FacePlane& plane, const Vec3& a, const Vec3& b, double margin,
                          const Vec3& p, const Vec3& q) {
@@ -46,16 +58,11 @@ static bool crosses_edge(const FacePlane& plane, const Vec3& a, const Vec3& b, d
 
 // Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or
 // along its edges.
-static bool passes_through(const Complex& complex, const FacePlane& plane, uint32_t t,
-                           double margin, const Vec3& p, const Vec3& q) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+static bool passes_through(const PlaneTriangle& triangle, double margin, const Vec3& p,
+                           const Vec3& q) {
   double from = 0.0, to = 1.0;
-  const Vec3& a = complex.point[v[0]];
-  const Vec3 n = cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
-  const Vec3 up = dot(n, plane.normal) > 0.0 ? plane.normal : -plane.normal;
   for (uint32_t k = 0; k < 3; ++k) {
-    const Vec3& b = complex.point[v[k]];
-    const Vec3 inward = cross(up, unit(complex.point[v[(k + 1) % 3]] - b));
+    const Vec3 &b = triangle.corner[k], &inward = triangle.inward[k];
     const double at_p = dot(p - b, inward) - margin, at_q = dot(q - b, inward) - margin;
     if (at_p <= 0.0 && at_q <= 0.0) return false;
     if (at_p < 0.0) from = larger(from, at_p / (at_p - at_q));
@@ -64,31 +71,35 @@ static bool passes_through(const Complex& complex, const FacePlane& plane, uint3
   return (to - from) * length(q - p) > margin;
 }
 
-// The longest edge of a triangle of samples that are in a row, but on no curve that they have in
-// common, or 3: it has no inside to pass through, yet may reach across curves.
-static uint32_t edge_of_sliver(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  double longest = 0.0;
-  uint32_t at = 0;
+static PlaneTriangle place_triangle(const Complex& complex, const FacePlane& plane, uint32_t t) {
+  PlaneTriangle triangle;
   for (uint32_t k = 0; k < 3; ++k) {
-    const double size = length(complex.point[v[(k + 1) % 3]] - complex.point[v[k]]);
-    if (size > longest) at = k;
-    longest = larger(longest, size);
+    triangle.corner[k] = complex.point[complex.triangle[3 * size_t{t} + k]];
   }
-  return length(cross_of_triangle(complex, t)) > 4.0 * k_beside * complex.diagonal * longest ? 3
-                                                                                             : at;
+  const Vec3 n = cross_of_triangle(complex, t);
+  const Vec3 up = dot(n, plane.normal) > 0.0 ? plane.normal : -plane.normal;
+  uint32_t longest = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3 side = triangle.corner[(k + 1) % 3] - triangle.corner[k];
+    const double size = length(side);
+    if (size > triangle.longest) longest = k;
+    triangle.longest = larger(triangle.longest, size);
+    triangle.inward[k] = cross(up, unit(side));
+  }
+  const double flat = 4.0 * k_beside * complex.diagonal * triangle.longest;
+  if (length(n) <= flat) triangle.sliver = longest;
+  return triangle;
 }
 
-static bool reaches_across(const Complex& complex, const FacePlane& plane, uint32_t t,
-                           uint32_t sliver, double margin, const Vec3& p, const Vec3& q) {
-  if (sliver == 3) return passes_through(complex, plane, t, margin, p, q);
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]], margin,
-                      p, q);
+static bool reaches_across(const FacePlane& plane, const PlaneTriangle& triangle, double margin,
+                           const Vec3& p, const Vec3& q) {
+  const uint32_t k = triangle.sliver;
+  if (k == 3) return passes_through(triangle, margin, p, q);
+  return crosses_edge(plane, triangle.corner[k], triangle.corner[(k + 1) % 3], margin, p, q);
 }
 
 static bool any_line_crosses(const Complex& complex, const FacePlane& plane, uint32_t seed,
-                             uint32_t t, uint32_t sliver, CurvesAcross* across) {
+                             const PlaneTriangle& triangle, CurvesAcross* across) {
   const Array<Vec3>& end = across->line_end;
   if (across->plane_line_of != seed) {
     across->plane_line_of = seed;
@@ -102,7 +113,7 @@ static bool any_line_crosses(const Complex& complex, const FacePlane& plane, uin
   across->work += across->plane_line.size();
   for (const uint32_t i : across->plane_line) {
     const double margin = k_beside * complex.diagonal + across->line_bend[i / 2];
-    if (reaches_across(complex, plane, t, sliver, margin, end[i], end[i + 1])) return true;
+    if (reaches_across(plane, triangle, margin, end[i], end[i + 1])) return true;
   }
   return false;
 }
@@ -110,21 +121,21 @@ static bool any_line_crosses(const Complex& complex, const FacePlane& plane, uin
 // An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that
 // of which the segment is a diameter.
 static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
-                             const FacePlane& plane, uint32_t t, uint32_t sliver,
+                             const FacePlane& plane, const PlaneTriangle& triangle,
                              CurvesAcross* across) {
   if (across->curved.empty()) return false;
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
-  const double size = larger(length(b - a), larger(length(c - b), length(a - c)));
+  const Vec3 middle = (1.0 / 3.0) * (triangle.corner[0] + triangle.corner[1] + triangle.corner[2]);
   const double margin = k_beside * complex.diagonal;
-  return across->grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t at) {
+  return across->grid.any_near(middle, triangle.longest, [&](uint32_t at) {
     const uint32_t i = across->curved[at];
     ++across->work;
     if (!near_plane(plane, complex.point[i])) return false;
     for (uint32_t k = across->next_start[i]; k < across->next_start[i + 1]; ++k) {
       const Vec3& q = complex.point[across->next[k]];
-      if (!near_plane(plane, q) || lines.common(i, across->next[k]) != k_none) continue;
-      if (reaches_across(complex, plane, t, sliver, margin, complex.point[i], q)) return true;
+      if (!near_plane(plane, q) || !reaches_across(plane, triangle, margin, complex.point[i], q)) {
+        continue;
+      }
+      if (lines.common(i, across->next[k]) == k_none) return true;
     }
     return false;
   });
@@ -184,12 +195,27 @@ Status find_curves_across(const Complex& complex, const Samples& samples, const 
   return link_segments(complex, curves, across);
 }
 
+// The complex is embedded: where no flat tetrahedron lies at a triangle no edge runs over it.
+static bool has_flat_neighbour(const Complex& complex, const FacePlane& plane, uint32_t t) {
+  for (uint32_t side = 0; side < 2; ++side) {
+    const uint32_t tet = complex.triangle_side[2 * size_t{t} + side];
+    if (tet == k_none) continue;
+    bool flat = true;
+    for (uint32_t k = 0; k < 4; ++k) {
+      flat = flat && near_plane(plane, complex.point[complex.tet[4 * size_t{tet} + k]]);
+    }
+    if (flat) return true;
+  }
+  return false;
+}
+
 bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
                 uint32_t seed, uint32_t t, CurvesAcross* across) {
+  if (!has_flat_neighbour(complex, plane, t)) return false;
   if (across->crossed[t] == Crossed::unknown) {
-    const uint32_t sliver = edge_of_sliver(complex, t);
-    const bool crossed = any_line_crosses(complex, plane, seed, t, sliver, across) ||
-                         any_bend_crosses(complex, lines, plane, t, sliver, across);
+    const PlaneTriangle triangle = place_triangle(complex, plane, t);
+    const bool crossed = any_line_crosses(complex, plane, seed, triangle, across) ||
+                         any_bend_crosses(complex, lines, plane, triangle, across);
     across->crossed[t] = crossed ? Crossed::yes : Crossed::no;
   }
   return across->crossed[t] == Crossed::yes;
