@@ -162,6 +162,7 @@ void wsk_report_init(wsk_report* report, size_t size) {
   defaults.patch = defaults.vertex = defaults.triangle = WSK_NONE;
   defaults.first_ambiguous_patch = WSK_NONE;
   defaults.first_inverted_patch = WSK_NONE;
+  defaults.first_coarse_patch = WSK_NONE;
   wireskin::api::write_defaults(defaults, size, report);
 }
 

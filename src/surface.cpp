@@ -81,6 +81,8 @@ static Status make_patches(const curves::Curves& fitted, const Settings& setting
     counts->minimal_area_patches += made && patches->way[p] == network::PatchWay::minimal_area;
   }
   TRY(surface->patches.status.copy(patches->status.span()));
+  counts->coarse_patches = patches->coarse_patches;
+  counts->first_coarse_patch = patches->first_coarse_patch;
   if (counts->failed_patches == 0) return {};
   TRY(network::drop_patches(surface->patches.status.span(), nodes, network, original));
   network::CurveVertices fresh_vertices(context);

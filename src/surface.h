@@ -65,6 +65,7 @@ struct Counts {
   uint32_t ambiguous_patches = 0, first_ambiguous_patch = k_none;
   uint32_t found_borders = 0;
   uint32_t inverted_triangles = 0, first_inverted_patch = k_none;
+  uint32_t coarse_patches = 0, first_coarse_patch = k_none;
 };
 
 // What is known of each patch, those that could not be made included.

@@ -374,6 +374,11 @@ typedef struct wsk_report {
      WSK_NONE where there is no first one. */
   uint32_t inverted_triangles;
   uint32_t first_inverted_patch;
+  /* Patches that no plane shows and whose first mesh is coarser inside than the spacing, at 2, 4 or
+     8 times it or with no vertex inside at all, because a finer one would have had triangles
+     without area. WSK_NONE where there is no first one. */
+  uint32_t coarse_patches;
+  uint32_t first_coarse_patch;
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.

@@ -292,6 +292,8 @@ std::string outcome_json(const ReportInput& input, const Outcome& outcome) {
   json.count("found_borders", report.found_borders);
   json.count("inverted_triangles", report.inverted_triangles);
   json.index("first_inverted_patch", report.first_inverted_patch);
+  json.count("coarse_patches", report.coarse_patches);
+  json.index("first_coarse_patch", report.first_coarse_patch);
   json.member("special_patches", patches_json(input.surface));
   json.number("noise_position", report.noise_position);
   json.number("noise_normal", report.noise_normal);

@@ -176,6 +176,11 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
             " inverted: the surface is folded at patch " +
             std::to_string(result.report.first_inverted_patch) + "\n";
   }
+  if (result.report.coarse_patches > 0) {
+    text += counted(result.report.coarse_patches, "patch is", "patches are") +
+            " coarser inside than the spacing, the first is " +
+            std::to_string(result.report.first_coarse_patch) + "\n";
+  }
   if (result.flow != nullptr) text += flow_lines(result.flow->view, arguments.voids);
   if (result.flow != nullptr) text += flow_notes(result.flow->view, arguments.spacing);
   const uint32_t loose = result.flow != nullptr ? result.prepared_view().after.dangling_ends : 0;

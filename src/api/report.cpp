@@ -48,6 +48,8 @@ void report_counts(const Counts& counts, const Scale& unscale, wsk_report* repor
   report->found_borders = counts.found_borders;
   report->inverted_triangles = counts.inverted_triangles;
   report->first_inverted_patch = counts.first_inverted_patch;
+  report->coarse_patches = counts.coarse_patches;
+  report->first_coarse_patch = counts.first_coarse_patch;
 }
 
 void report_costs(Context& context, wsk_report* report) {

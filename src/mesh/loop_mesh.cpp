@@ -419,14 +419,18 @@ Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh
   // Where a border has edges far shorter than the rest the points added may line up with two others
   // in a triangle that no flip removes: fewer of them do not, and none at the last.
   bool sound = false;
+  bool coarser = false;
   for (int k = 0; k < k_tries && !sound; ++k) {
+    coarser = k > 0;
     TRY(refine_copy(loops, spacing * (1 << k), coarse, &point, &triangle, &sound));
   }
+  coarser = coarser || !sound;
   if (!sound) TRY(take_unrefined(loops, coarse, &point, &triangle, &sound));
   if (!sound) return fail(Code::patch_folded, "the border of the patch encloses no area");
   const size_t n = loops.position.size();
   TRY(mesh->inner.copy(point.span().part(n, point.size() - n)));
   mesh->triangle = static_cast<Array<uint32_t>&&>(triangle);
+  mesh->coarse = coarser;
   return {};
 }
 

@@ -23,6 +23,7 @@ namespace wireskin::mesh {
 struct LoopMesh {
   Array<Vec3> inner;
   Array<uint32_t> triangle;  // three vertices each
+  bool coarse = false;       // at more than the spacing
 
   explicit LoopMesh(Context& context) : inner(context), triangle(context) {}
 };

@@ -62,6 +62,7 @@ static Status take_mesh(const Border& border, mesh::LoopMesh* made, SpaceMesh* m
 static Status take_loop_mesh(const Border& border, double spacing, SpaceMesh* mesh) {
   mesh::LoopMesh flat(mesh->position.context());
   TRY(mesh::mesh_loops(mesh->position.context(), loops_of(border), spacing, &flat));
+  mesh->coarse = flat.coarse;
   return take_mesh(border, &flat, mesh);
 }
 
@@ -90,7 +91,7 @@ static Status take_band(const Border& border, double spacing, SpaceMesh* mesh) {
 Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh) {
   constexpr int k_coarse_rounds = 2, k_fine_rounds = 1;
   mesh->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
-  mesh->band = false;
+  mesh->band = mesh->coarse = false;
   if (mesh->raised && border.loops() == 2) {
     TRY(take_band(border, spacing, mesh));
     if (mesh->band) return {};
@@ -105,6 +106,7 @@ Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mes
     TRY(raise_once(border, border.size(), mesh, &sound));
     TRY(refine_and_raise(border, held, coarse, k_coarse_rounds, mesh, &sound));
     TRY(refine_and_raise(border, held, spacing, k_fine_rounds, mesh, &sound));
+    mesh->coarse = false;  // that was of the first mesh
     if (sound) return {};
     if (border.loops() > 2) return take_branches(border, spacing, mesh);
   }

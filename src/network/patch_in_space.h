@@ -18,6 +18,7 @@ struct SpaceMesh {
   Array<uint32_t> triangle;
   bool raised = false;  // from little area
   bool band = false;    // by mesh/band.h
+  bool coarse = false;  // at more than the spacing, as nothing finer was sound
 
   explicit SpaceMesh(Context& context) : position(context), triangle(context) {}
 };

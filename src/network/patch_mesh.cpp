@@ -428,6 +428,9 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   TRY(mesh_in_space(vertices, spacing, scratch));
   TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
+  if (scratch->spatial.coarse && builder->mesh->coarse_patches++ == 0) {
+    builder->mesh->first_coarse_patch = patch;
+  }
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
 }
 

@@ -477,3 +477,43 @@ TEST_CASE("each allocation failed in turn, and a cancel at each checkpoint") {
   }
   CHECK(triangles == expected);  // and the same bits, whatever the memory held before
 }
+
+TEST_CASE("loop mesh: where the spacing leaves needles it is coarser, and says so") {
+  std::mt19937 random(4);
+  const auto uniform = [&random] { return random() / 4294967296.0; };
+  int coarse = 0;
+  for (int k = 0; k < 400; ++k) {
+    // A bent strip with noise, a few of its edges far shorter than the others.
+    Loop loop;
+    const double width = 0.002 + 0.05 * uniform();
+    for (int side = 0; side < 2; ++side) {
+      for (int i = 0; i < 24; ++i) {
+        const double t = (side == 0 ? i : 23 - i) / 23.0;
+        const Vec3 p = {t + 0.01 * uniform(), side * width, 0.3 * t * t + 0.004 * uniform()};
+        loop.add(p, {-0.6 * t, 0, 1});
+        for (int extra = 0; extra < 2 && uniform() < 0.15; ++extra) {
+          const double d = 1e-4 * (1 + extra) * (side == 0 ? 1 : -1);
+          loop.add(p + Vec3{d, 1e-5 * uniform(), 1e-4 * uniform()}, {-0.6 * t, 0, 1});
+        }
+      }
+    }
+    scenes::FaultyAllocator heap;
+    Context context({heap.allocate, heap.release, &heap}, 0, {});
+    LoopMesh mesh(context);
+    const double spacing = 0.5 * mean_edge(loop);
+    const Status status = mesh_loop(context, {loop.position.data(), loop.size()},
+                                    {loop.normal.data(), loop.size()}, spacing, &mesh);
+    REQUIRE_MESSAGE(status.ok(), std::string(status.sentence));
+    coarse += mesh.coarse;
+    for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
+      Vec3 p[3];
+      for (size_t c = 0; c < 3; ++c) {
+        const uint32_t v = mesh.triangle[t + c];
+        p[c] = v < loop.size() ? loop.position[v] : mesh.inner[v - loop.size()];
+      }
+      CHECK(length(cross(p[1] - p[0], p[2] - p[0])) > 0.0);
+    }
+  }
+  CHECK(coarse > 0);
+  CHECK(coarse < 400);
+}
