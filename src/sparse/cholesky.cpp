@@ -291,7 +291,9 @@ static void gather_lanes(const uint32_t* rows, uint32_t height, const double* y,
   }
   for (; l < z.count; ++l) {
     double* to = z.value + l * z.step;
-    for (uint32_t r = 0; r < height; ++r) to[r] = y[size_t{rows[r]} * z.count + l];
+    const double* from = y + l;
+    const size_t step = z.count;
+    for (uint32_t r = 0; r < height; ++r) to[r] = from[step * rows[r]];
   }
 }
 
@@ -424,7 +426,8 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   }
   for (uint32_t k = 0; k < n_; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = workspace_[size_t{k} * columns + c];
+    const double* from = workspace_.data() + size_t{k} * columns;
+    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
   }
   return {};
 }

@@ -15,8 +15,7 @@ else()
   if(found)
     execute_process(COMMAND clang++ -std=c++17 -O1 -g1 -ffp-contract=off -I${WORK} -I${ROOT}/tests
                             ${golden_sources} ${implementation} -fsanitize=memory
-                            -fsanitize-memory-track-origins -D_GLIBCXX_EXTERN_TEMPLATE=0
-                            -o ${WORK}/scenes
+                            -D_GLIBCXX_EXTERN_TEMPLATE=0 -o ${WORK}/scenes
                     COMMAND_ERROR_IS_FATAL ANY)
     must(MemorySanitizer ${WORK}/scenes)
   endif()

@@ -42,7 +42,7 @@ check_target(ppc64 powerpc64-linux-gnu-g++ "${gcc} -static" "qemu-ppc64-static")
 check_target(riscv64 riscv64-linux-gnu-g++ "${gcc} -static" "qemu-riscv64-static")
 check_target(windows x86_64-w64-mingw32-g++ "${gcc} -static" "wine64")
 if(EXISTS /usr/include/wasm32-wasi OR NOT MACHINE STREQUAL "wasm")
-  check_target(wasm clang++-14 "-O2 --target=wasm32-wasi -fno-exceptions -Wl,-z,stack-size=1048576"
+  check_target(wasm clang++-14 "-O2 --target=wasm32-wasi -fno-exceptions"
                "node --no-warnings ${ROOT}/tests/golden/run_wasi.mjs")
 else()
   message(STATUS "wasm: skipped, wasi-libc is not here")

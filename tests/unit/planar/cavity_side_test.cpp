@@ -126,3 +126,22 @@ TEST_CASE("two points have nothing between them") {
   must(triangulate_side(&side));
   CHECK(side.triangles.empty());
 }
+
+TEST_CASE("chains round one point of the segment, ragged, with edges that hang into the region") {
+  Random random(7);
+  for (int round = 0; round < 200; ++round) {
+    const uint32_t count = 20 + random.below(200);
+    std::vector<Vec2> chain{{-1.0, 0.0}};
+    for (uint32_t i = 1; i <= count; ++i) {
+      const double angle = 3.141592653589793 * (1.0 - i / (count + 1.0));
+      const double far = round % 2 == 0 ? 1.0 + random() * 0.9 : std::exp2(6.0 * random());
+      const Vec2 along = {std::cos(angle), std::sin(angle)};
+      chain.push_back(far * along);
+      if (round % 4 < 2 || random.below(4) != 0) continue;
+      chain.push_back((0.3 * far) * along);  // there and back
+      chain.push_back(far * along);
+    }
+    chain.push_back({1.0, 0.0});
+    triangulate(chain);
+  }
+}
