@@ -2,15 +2,14 @@
 // method on the current mesh in space, and up to six steps of minimum variation, with mesh care
 // between.
 //
-// In: a mesh with held vertices (positions, unit normals), the patch of each triangle, and the
-// shapes of the triangles in which the harmonic start is computed. Out: positions, propagated
-// normals, triangles (edges inside patches may be flipped). A patch whose displacement runs away
-// (more than a quarter of its size, or growing) is put back to what the paper's steps gave and
-// stays there; so are all if a step's system is singular. After every step folds are taken out; a patch that ends with one goes back to its
-// last state without. Cost: one factorisation of size n for the start, one for each of two paper
-// steps, one of size 2 n for the displacements, more where it no longer serves the later ones.
-// Sources: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016; H. Moreton, C.
-// Sequin, "Functional Optimization for Fair Surface Design", 1992.
+// In: a mesh with held vertices (positions, unit normals), the patch of each triangle, the shapes
+// of the triangles for the harmonic start. Out: positions, propagated normals, triangles (edges
+// inside patches may be flipped). A patch whose displacement runs away (more than a quarter of its
+// size, or growing), and all if a step is singular, go back to what the paper's steps gave and stay
+// there; a patch that ends with folds goes back to its last state without. Cost: a factorisation of
+// size n for the start and each paper step, one of size 2 n for the displacements, more where it
+// serves no more. Sources: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016;
+// H. Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992.
 #pragma once
 
 #include "smooth/smooth.h"
