@@ -204,7 +204,8 @@ enum {
   WSK_METHOD_ITERATED = 4,
   /* The default: ITERATED, then up to six steps of minimum variation along the normals (after H.
      Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992), in which the
-     normals on the curves bind. A patch whose displacement runs away keeps what ITERATED gave. */
+     normals on the curves bind. A patch whose displacement runs away keeps what ITERATED gave; so
+     do all where triangles are too thin for these steps. */
   WSK_METHOD_FAIR = 5,
   WSK_METHOD_COUNT = 6
 };
@@ -379,6 +380,11 @@ typedef struct wsk_report {
      WSK_NONE where there is no first one. */
   uint32_t inverted_triangles;
   uint32_t first_inverted_patch;
+  /* Patches that no plane shows and whose first mesh is coarser inside than the spacing, at 2, 4 or
+     8 times it or with no vertex inside at all, because a finer one would have had triangles
+     without area. WSK_NONE where there is no first one. */
+  uint32_t coarse_patches;
+  uint32_t first_coarse_patch;
 } wsk_report;
 
 /* Clears *report; all places become WSK_NONE. Does nothing for a null pointer or too small a size.
@@ -1533,6 +1539,11 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 inline double length(const Vec3& a) {
   return std::sqrt(dot(a, a));
+}
+
+/* Axis 0, 1 or 2. */
+inline double coordinate(const Vec3& a, uint32_t axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
 /* The unit vector along `a`; the zero vector stays zero. */
@@ -2807,6 +2818,7 @@ struct Counts {
   uint32_t ambiguous_patches = 0, first_ambiguous_patch = k_none;
   uint32_t found_borders = 0;
   uint32_t inverted_triangles = 0, first_inverted_patch = k_none;
+  uint32_t coarse_patches = 0, first_coarse_patch = k_none;
 };
 
 /* What is known of each patch, those that could not be made included. */
@@ -3109,6 +3121,9 @@ Status build_complex(Context& context, Span<const Vec3> points, const ComplexOpt
 /* The edge between two points (by their numbers in same_as), or k_none. */
 uint32_t find_edge(const Complex& complex, uint32_t u, uint32_t v);
 
+/* Along the normal of a triangle, twice its area. */
+Vec3 cross_of_triangle(const Complex& complex, uint32_t t);
+
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/complex.h ======== */
 
@@ -3364,6 +3379,7 @@ struct FlatFaces {
   Array<uint32_t> rim_start;
   Array<FaceRim> rim;     /* of each face, an arc once */
   Array<FlatPart> part;   /* of each triangle; a line: its corners lie on one, so in no plane */
+  double flat = 0.0;      /* a length: what was taken to lie in a plane */
   bool given_up = false;  /* too much to look at: there are none */
 
   explicit FlatFaces(Context& context)
@@ -3377,8 +3393,10 @@ struct FlatFaces {
   uint32_t size() const { return static_cast<uint32_t>(normal.size()); }
 };
 
+/* `noise`: the standard deviation of the samples that was taken out, as corners have theirs still. */
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces);
+                       const CurveEdges& curves, const StraightLines& lines, double noise,
+                       FlatFaces* faces);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_faces.h ======== */
@@ -3785,6 +3803,7 @@ struct FlowOptions {
   double spacing = 0.0;
   bool bend = false;  /* the samples are of smooth curves, not corners of polylines */
   Lids lids = Lids::single;
+  double noise = 0.0;  /* standard deviation of what was taken out of the polylines, a length */
   ComplexOptions complex;
 };
 
@@ -5179,6 +5198,60 @@ Status radix_sort(Context& context, Array<BitsKey>* keys);
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/radix_sort.h ======== */
 
+/* ======== begin src/flow/face_crossings.h ======== */
+/* Which triangles in a plane a curve runs across: these are in no flat face. */
+/* */
+/* In: the complex and the curves in it; a plane and a triangle. Out: yes or no, kept for the next */
+/* time. Beside a triangle or along its edges is not across; nor is a straight line that its own */
+/* samples are as far off. Outermost layers of flat tetrahedra, of huge empty balls outside of the */
+/* hull, reach across curves, as do slivers of samples in a row. Cost for a triangle: the straight */
+/* lines in its plane, and the samples of others near it. Source: own. */
+
+namespace wireskin::flow {
+
+struct FacePlane {
+  Vec3 at, normal;
+  double flat;  /* what is nearer lies in it */
+};
+
+enum class Crossed : uint8_t { unknown, no, yes };
+
+struct CurvesAcross {
+  Array<Vec3> line_end;        /* two of each line */
+  Array<double> line_bend;     /* of each line: how far its samples are off it */
+  Array<uint32_t> plane_line;  /* those in the plane of a seed */
+  uint32_t plane_line_of = k_none;
+  PointGrid grid;
+  Array<uint32_t> curved;            /* samples of arcs that bend */
+  Array<uint32_t> next_start, next;  /* of each vertex: those that segments join it to */
+  Array<Crossed> crossed;            /* of each triangle */
+  size_t work = 0;                   /* how much was looked at */
+
+  explicit CurvesAcross(Context& context)
+      : line_end(context),
+        line_bend(context),
+        plane_line(context),
+        grid(context),
+        curved(context),
+        next_start(context),
+        next(context),
+        crossed(context) {}
+};
+
+inline bool near_plane(const FacePlane& plane, const Vec3& p) {
+  return std::fabs(dot(p - plane.at, plane.normal)) <= plane.flat;
+}
+
+Status find_curves_across(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                          const StraightLines& lines, CurvesAcross* across);
+
+/* `seed` tells planes apart. */
+bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
+                uint32_t seed, uint32_t t, CurvesAcross* across);
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/face_crossings.h ======== */
+
 /* ======== begin src/flow/merge_cells.h ======== */
 /* Cells between flat faces, and which of them are one: what lies between is no face of anything. */
 /* */
@@ -5577,7 +5650,8 @@ Status refine_patch(Context& context, double spacing, bool relax, Span<const uin
 /* the loops' vertices alone by dynamic programming, least in the sum of area * (1 + k (1 - cos)) */
 /* with the angle between a triangle and the mean of its normals, k 2 or for several loops 8; */
 /* several loops become one by bridges, the shortest along which their conormals lead. Then */
-/* mesh/loop_refine.h. At most k_most_kept vertices or so take part in the first, so its cost is */
+/* mesh/loop_refine.h, at 2, 4 and 8 times the spacing where that leaves a needle, and not at all */
+/* where these do. At most k_most_kept vertices or so take part in the first, so its cost is */
 /* bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the */
 /* Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003. */
 
@@ -5586,6 +5660,7 @@ namespace wireskin::mesh {
 struct LoopMesh {
   Array<Vec3> inner;
   Array<uint32_t> triangle;  /* three vertices each */
+  bool coarse = false;       /* at more than the spacing */
 
   explicit LoopMesh(Context& context) : inner(context), triangle(context) {}
 };
@@ -6453,7 +6528,7 @@ Vec3 left_normal(const Network& network, const CurveVertices& vertices, uint32_t
 /* or for crossings (network/linking.h). */
 /* */
 /* In: the loops of a border with their normals (zero: unknown). Out: a status without place. */
-/* O(n^2), though mostly for network/linking.h. */
+/* O(n log n) and the pairs of edges whose extents meet along an axis. */
 
 namespace wireskin::network {
 
@@ -6470,14 +6545,15 @@ Status check_border(const Border& border);
 /* Whether any two-sided surface without crossings can have this border with these normals. */
 /* */
 /* Pushed along its normals such a surface does not meet its border, so the border and its copy */
-/* pushed along them have the linking number 0: that is the writhe of the loops together, the sum of */
-/* solid angles over pairs of edges, and the turns that normals make about their curves. The border */
-/* of a Moebius band has another number, and so has a knot with normals that stay on one side. */
-/* In: a border. Out: the number, 0 where it is not defined (normals not known, curves that turn */
-/* back) or the sums are not near a whole number. O(n^2). Sources: G. Calugareanu, "L'integrale de */
-/* Gauss et l'analyse des noeuds tridimensionnels", 1959; J. H. White, "Self-Linking and the Gauss */
-/* Integral in Higher Dimensions", 1969; T. F. Banchoff, "Self Linking Numbers of Space Polygons", */
-/* 1976. */
+/* pushed along them have the linking number 0: that is the signed crossings of the loops seen from */
+/* any direction, and the turns that the normals make about their curves against that direction. The */
+/* border of a Moebius band has another number, and so has a knot with normals that stay on one */
+/* side. In: a border. Out: the number, 0 where it is not defined (normals not known, curves that */
+/* turn back). Cost: O(n log n) and the pairs of edges whose extents meet along an axis; no more */
+/* than some nanoseconds for each of these, so that 2^16 edges take a few seconds at the worst. */
+/* Sources: G. Calugareanu, "L'integrale de Gauss et l'analyse des noeuds tridimensionnels", 1959; */
+/* J. H. White, "Self-Linking and the Gauss Integral in Higher Dimensions", 1969; L. H. Kauffman, */
+/* "On Knots", 1987, for the blackboard framing. */
 
 namespace wireskin::network {
 
@@ -6508,6 +6584,7 @@ enum class PatchWay : uint8_t { plane, minimal_area };
 struct PatchMesh {
   uint32_t vertices = 0;
   uint32_t curve_vertices = 0;
+  uint32_t coarse_patches = 0, first_coarse_patch = k_none;  /* at more than the spacing */
   Array<uint32_t> triangle;          /* three vertices each */
   Array<uint32_t> patch;             /* of each triangle */
   Array<mesh::TriangleShape> shape;  /* of each triangle, in its patch's plane or in space */
@@ -7200,6 +7277,7 @@ struct SpaceMesh {
   Array<uint32_t> triangle;
   bool raised = false;  /* from little area */
   bool band = false;    /* by mesh/band.h */
+  bool coarse = false;  /* at more than the spacing, as nothing finer was sound */
 
   explicit SpaceMesh(Context& context) : position(context), triangle(context) {}
 };
@@ -7279,8 +7357,9 @@ Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes);
 /* they run clockwise round their own normals. */
 /* */
 /* In: nodes, network and vertices of its curves. Out: nodes and network without such patches, the */
-/* curves there being boundary. A patch that holds curves or points is kept, and so is one without */
-/* which a curve would bound nothing: they fail later, with their place. Which side of a closed */
+/* curves there being boundary. A patch without which a curve would bound nothing is kept, and so is */
+/* one that holds points: they fail later, with their place. One that holds curves fails here with */
+/* open_network and names the first of them, but where faults are collected it fails later. Which side of a closed */
 /* curve has the surface cannot be told for tubes and domes, whose normals stand across the vector */
 /* area of their ends: those have to be tagged. O(border). */
 
@@ -7756,15 +7835,14 @@ Status nested_dissection(const Csc& lower, const Geometry& geometry, Array<uint3
 /* method on the current mesh in space, and up to six steps of minimum variation, with mesh care */
 /* between. */
 /* */
-/* In: a mesh with held vertices (positions, unit normals), the patch of each triangle, and the */
-/* shapes of the triangles in which the harmonic start is computed. Out: positions, propagated */
-/* normals, triangles (edges inside patches may be flipped). A patch whose displacement runs away */
-/* (more than a quarter of its size, or growing) is put back to what the paper's steps gave and */
-/* stays there. After every step folds are taken out; a patch that ends with one goes back to its */
-/* last state without. Cost: one factorisation of size n for the start, one for each of two paper */
-/* steps, one of size 2 n for the displacements, more where it no longer serves the later ones. */
-/* Sources: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016; H. Moreton, C. */
-/* Sequin, "Functional Optimization for Fair Surface Design", 1992. */
+/* In: a mesh with held vertices (positions, unit normals), the patch of each triangle, the shapes */
+/* of the triangles for the harmonic start. Out: positions, propagated normals, triangles (edges */
+/* inside patches may be flipped). A patch whose displacement runs away (more than a quarter of its */
+/* size, or growing), and all if a step is singular, go back to what the paper's steps gave and stay */
+/* there; a patch that ends with folds goes back to its last state without. Cost: a factorisation of */
+/* size n for the start and each paper step, one of size 2 n for the displacements, more where it */
+/* serves no more. Sources: T. Stanko et al., "Surfacing Curve Networks with Normal Control", 2016; */
+/* H. Moreton, C. Sequin, "Functional Optimization for Fair Surface Design", 1992. */
 
 namespace wireskin::smooth {
 
@@ -8134,6 +8212,7 @@ Status transpose(const Csc& a, Csc* result) {
   starts_from_counts(result->start.span());
   TRY(next.copy(result->start.span()));
   for (uint32_t j = 0; j < a.cols; ++j) {
+    TRY(checkpoint_at_column(a.start.context(), j));
     for (uint32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
       const uint32_t to = next[a.row[k]]++;
       result->row[to] = j;
@@ -11656,7 +11735,9 @@ static void gather_lanes(const uint32_t* rows, uint32_t height, const double* y,
   }
   for (; l < z.count; ++l) {
     double* to = z.value + l * z.step;
-    for (uint32_t r = 0; r < height; ++r) to[r] = y[size_t{rows[r]} * z.count + l];
+    const double* from = y + l;
+    const size_t step = z.count;
+    for (uint32_t r = 0; r < height; ++r) to[r] = from[step * rows[r]];
   }
 }
 
@@ -11756,7 +11837,7 @@ void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
 }
 
 Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 24;
+  constexpr size_t k_work_per_checkpoint = size_t{1} << 23;
   *work += size_t{supernodes_.height(s)} * supernodes_.width(s) * lanes;
   if (*work < k_work_per_checkpoint) return {};
   *work = 0;
@@ -11789,7 +11870,8 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   }
   for (uint32_t k = 0; k < n_; ++k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) to[c] = workspace_[size_t{k} * columns + c];
+    const double* from = workspace_.data() + size_t{k} * columns;
+    for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
   }
   return {};
 }
@@ -12481,6 +12563,8 @@ static Status make_patches(const curves::Curves& fitted, const Settings& setting
     counts->minimal_area_patches += made && patches->way[p] == network::PatchWay::minimal_area;
   }
   TRY(surface->patches.status.copy(patches->status.span()));
+  counts->coarse_patches = patches->coarse_patches;
+  counts->first_coarse_patch = patches->first_coarse_patch;
   if (counts->failed_patches == 0) return {};
   TRY(network::drop_patches(surface->patches.status.span(), nodes, network, original));
   network::CurveVertices fresh_vertices(context);
@@ -12751,6 +12835,8 @@ void report_counts(const Counts& counts, const Scale& unscale, wsk_report* repor
   report->found_borders = counts.found_borders;
   report->inverted_triangles = counts.inverted_triangles;
   report->first_inverted_patch = counts.first_inverted_patch;
+  report->coarse_patches = counts.coarse_patches;
+  report->first_coarse_patch = counts.first_coarse_patch;
 }
 
 void report_costs(Context& context, wsk_report* report) {
@@ -13025,6 +13111,12 @@ uint32_t find_edge(const Complex& complex, uint32_t u, uint32_t v) {
     }
   }
   return low < complex.edge_first[u + 1] && complex.edge[2 * low + 1] == v ? low : k_none;
+}
+
+Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
+  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+  const Vec3& a = complex.point[v[0]];
+  return cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
 }
 
 static Status take_tets(Context& context, const Delaunay& delaunay, Complex* complex) {
@@ -14305,7 +14397,10 @@ Status find_straight_lines(const Complex& complex, const Samples& samples, Strai
 namespace wireskin::flow {
 
 static constexpr double k_least_corner = 0.94;  /* cosine of what a polygon turns at a corner */
-static constexpr double k_beside = 1e-5;        /* of the diagonal, from an edge */
+/* Corners keep their noise, and a plane may go through some that are off it. */
+static constexpr double k_noise_off_plane = 3.0;  /* times its standard deviation */
+static constexpr double k_most_noise = 10.0;      /* times what is flat without noise */
+static constexpr double k_exact = 0.02;  /* of what counts as flat: planes are no matter of choice */
 static constexpr uint8_t k_most_visits = 4;
 /* Of lines and samples looked at; who draws faces as dense as that gets none. */
 static constexpr size_t k_most_work = size_t{1} << 26;
@@ -14313,21 +14408,8 @@ static constexpr size_t k_flood_per_checkpoint = size_t{1} << 17;
 
 namespace {
 
-struct Plane {
-  Vec3 at, normal;
-};
-
-enum class Crossed : uint8_t { unknown, no, yes };
-
 struct FaceFlood {
-  /* For what runs across a triangle: ends of lines, those of them in the plane of a seed; samples */
-  /* of arcs that bend; what is known of each triangle, and how much was looked at. */
-  Array<Vec3> line_end;
-  Array<uint32_t> plane_line;
-  uint32_t plane_line_of = k_none;
-  PointGrid grid;
-  Array<uint32_t> curved;
-  Array<Crossed> crossed;
+  CurvesAcross across;
   size_t work = 0, next_checkpoint = k_flood_per_checkpoint;
   Array<uint32_t> mark;               /* of each triangle: the seed whose face it was last in */
   Array<uint8_t> visits;              /* of each triangle */
@@ -14336,15 +14418,10 @@ struct FaceFlood {
   Array<uint8_t> straight;            /* of each edge: on a straight arc */
   Array<uint32_t> arc_of;             /* of each edge on a curve */
   Array<uint32_t> rim_of;             /* of each arc: the seed of the face that has it last */
-  Array<uint32_t> next_start, next;   /* of each vertex: those that segments join it to */
   Array<uint32_t> seen, border_edge;  /* of each vertex: its edges on the border, and one of them */
 
   explicit FaceFlood(Context& context)
-      : line_end(context),
-        plane_line(context),
-        grid(context),
-        curved(context),
-        crossed(context),
+      : across(context),
         mark(context),
         visits(context),
         member(context),
@@ -14352,10 +14429,9 @@ struct FaceFlood {
         straight(context),
         arc_of(context),
         rim_of(context),
-        next_start(context),
-        next(context),
         seen(context),
         border_edge(context) {}
+  size_t all_work() const { return work + across.work; }
   Status pause() {
     if (work <= next_checkpoint) return {};
     next_checkpoint = work + k_flood_per_checkpoint;
@@ -14365,49 +14441,16 @@ struct FaceFlood {
 
 }  /* namespace */
 
-static double twice_area(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return length(cross(complex.point[v[1]] - a, complex.point[v[2]] - a));
+static FacePlane plane_of(const Complex& complex, uint32_t t, double flat) {
+  return {complex.point[complex.triangle[3 * size_t{t}]], unit(cross_of_triangle(complex, t)),
+          flat};
 }
 
-static Plane plane_of(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return {a, unit(cross(complex.point[v[1]] - a, complex.point[v[2]] - a))};
-}
-
-static bool in_plane(const Complex& complex, const Plane& plane, uint32_t t) {
+static bool in_plane(const Complex& complex, const FacePlane& plane, uint32_t t) {
   for (uint32_t k = 0; k < 3; ++k) {
-    const Vec3& p = complex.point[complex.triangle[3 * size_t{t} + k]];
-    if (std::fabs(dot(p - plane.at, plane.normal)) > k_flat * complex.diagonal) return false;
+    if (!near_plane(plane, complex.point[complex.triangle[3 * size_t{t} + k]])) return false;
   }
   return true;
-}
-
-/* What segments of curves join each vertex to. */
-static Status link_segments(const Complex& complex, const CurveEdges& curves, FaceFlood* flood) {
-  size_t count = 0;
-  TRY(flood->next_start.assign(complex.point.size() + 1, 0));
-  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
-    if (!curves.on_curve(e)) continue;
-    ++flood->next_start[complex.edge[2 * size_t{e}]];
-    ++flood->next_start[complex.edge[2 * size_t{e} + 1]];
-    count += 2;
-  }
-  TRY(flood->next.resize(count));
-  starts_from_counts(flood->next_start.span());
-  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
-    if (!curves.on_curve(e)) continue;
-    const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
-    flood->next[flood->next_start[a]++] = b;
-    flood->next[flood->next_start[b]++] = a;
-  }
-  for (size_t v = flood->next_start.size() - 1; v > 0; --v) {
-    flood->next_start[v] = flood->next_start[v - 1];
-  }
-  flood->next_start[0] = 0;
-  return {};
 }
 
 /* Marks the edges of arcs. */
@@ -14454,121 +14497,8 @@ static bool is_line(const Complex& complex, const CurveEdges& curves, const Stra
   return lines.common(v[0], v[1], v[2]) != k_none;
 }
 
-/* Whether a piece of curve from p to q crosses one from a to b in their plane, away from its ends. */
-static bool crosses_edge(const Plane& plane, const Vec3& a, const Vec3& b, double margin,
-                         const Vec3& p, const Vec3& q) {
-  const Vec3 along = unit(b - a);
-  const Vec3 across = cross(plane.normal, along);
-  const double at_p = dot(p - a, across), at_q = dot(q - a, across);
-  if (larger(at_p, at_q) < margin || smaller(at_p, at_q) > -margin) return false;
-  const double t = at_p / (at_p - at_q);
-  const double at = dot(p + t * (q - p) - a, along);
-  return at > margin && at < length(b - a) - margin;
-}
-
-/* Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or */
-/* along its edges. */
-static bool passes_through(const Complex& complex, const Plane& plane, uint32_t t, const Vec3& p,
-                           const Vec3& q) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const double margin = k_beside * complex.diagonal;
-  double from = 0.0, to = 1.0;
-  const Vec3& a = complex.point[v[0]];
-  const Vec3 n = cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
-  const Vec3 up = dot(n, plane.normal) > 0.0 ? plane.normal : -plane.normal;
-  for (uint32_t k = 0; k < 3; ++k) {
-    const Vec3& b = complex.point[v[k]];
-    const Vec3 inward = cross(up, unit(complex.point[v[(k + 1) % 3]] - b));
-    const double at_p = dot(p - b, inward) - margin, at_q = dot(q - b, inward) - margin;
-    if (at_p <= 0.0 && at_q <= 0.0) return false;
-    if (at_p < 0.0) from = larger(from, at_p / (at_p - at_q));
-    if (at_q < 0.0) to = smaller(to, at_p / (at_p - at_q));
-  }
-  return (to - from) * length(q - p) > margin;
-}
-
-/* The longest edge of a triangle of samples that are in a row, but on no curve that they have in */
-/* common, or 3: it has no inside to pass through, yet may reach across curves. */
-static uint32_t edge_of_sliver(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  double longest = 0.0;
-  uint32_t at = 0;
-  for (uint32_t k = 0; k < 3; ++k) {
-    const double size = length(complex.point[v[(k + 1) % 3]] - complex.point[v[k]]);
-    if (size > longest) at = k;
-    longest = larger(longest, size);
-  }
-  return twice_area(complex, t) > 4.0 * k_beside * complex.diagonal * longest ? 3 : at;
-}
-
-static bool reaches_across(const Complex& complex, const Plane& plane, uint32_t t, uint32_t sliver,
-                           const Vec3& p, const Vec3& q) {
-  if (sliver == 3) return passes_through(complex, plane, t, p, q);
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  return crosses_edge(plane, complex.point[v[sliver]], complex.point[v[(sliver + 1) % 3]],
-                      k_beside * complex.diagonal, p, q);
-}
-
-static bool near_plane(const Complex& complex, const Plane& plane, const Vec3& p) {
-  return std::fabs(dot(p - plane.at, plane.normal)) <= k_flat * complex.diagonal;
-}
-
-static bool any_line_crosses(const Complex& complex, const Plane& plane, uint32_t seed, uint32_t t,
-                             uint32_t sliver, FaceFlood* flood) {
-  const Array<Vec3>& end = flood->line_end;
-  if (flood->plane_line_of != seed) {
-    flood->plane_line_of = seed;
-    flood->plane_line.clear();
-    flood->work += end.size() / 2;
-    for (uint32_t i = 0; i < end.size(); i += 2) {
-      const bool within =
-          near_plane(complex, plane, end[i]) && near_plane(complex, plane, end[i + 1]);
-      if (within) flood->plane_line.push_reserved(i);
-    }
-  }
-  flood->work += flood->plane_line.size();
-  for (const uint32_t i : flood->plane_line) {
-    if (reaches_across(complex, plane, t, sliver, end[i], end[i + 1])) return true;
-  }
-  return false;
-}
-
-/* An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that */
-/* of which the segment is a diameter. */
-static bool any_bend_crosses(const Complex& complex, const StraightLines& lines, const Plane& plane,
-                             uint32_t t, uint32_t sliver, FaceFlood* flood) {
-  if (flood->curved.empty()) return false;
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
-  const double size = larger(length(b - a), larger(length(c - b), length(a - c)));
-  return flood->grid.any_near((1.0 / 3.0) * (a + b + c), size, [&](uint32_t at) {
-    const uint32_t i = flood->curved[at];
-    ++flood->work;
-    if (!near_plane(complex, plane, complex.point[i])) return false;
-    for (uint32_t k = flood->next_start[i]; k < flood->next_start[i + 1]; ++k) {
-      const Vec3& q = complex.point[flood->next[k]];
-      if (!near_plane(complex, plane, q) || lines.common(i, flood->next[k]) != k_none) continue;
-      if (reaches_across(complex, plane, t, sliver, complex.point[i], q)) return true;
-    }
-    return false;
-  });
-}
-
-/* Whether a curve runs across the triangle: outermost layers, of huge empty balls outside of the */
-/* hull, may reach across. */
-static bool is_crossed(const Complex& complex, const StraightLines& lines, const Plane& plane,
-                       uint32_t seed, uint32_t t, FaceFlood* flood) {
-  if (flood->crossed[t] == Crossed::unknown) {
-    const uint32_t sliver = edge_of_sliver(complex, t);
-    const bool crossed = any_line_crosses(complex, plane, seed, t, sliver, flood) ||
-                         any_bend_crosses(complex, lines, plane, t, sliver, flood);
-    flood->crossed[t] = crossed ? Crossed::yes : Crossed::no;
-  }
-  return flood->crossed[t] == Crossed::yes;
-}
-
 /* Which side of an edge, within the plane, a triangle lies on. */
-static bool on_left(const Complex& complex, const Plane& plane, uint32_t e, uint32_t t) {
+static bool on_left(const Complex& complex, const FacePlane& plane, uint32_t e, uint32_t t) {
   const Vec3& a = complex.point[complex.edge[2 * size_t{e}]];
   const Vec3& b = complex.point[complex.edge[2 * size_t{e} + 1]];
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
@@ -14578,7 +14508,7 @@ static bool on_left(const Complex& complex, const Plane& plane, uint32_t e, uint
 }
 
 /* The sides of an edge that the face takes up, a bit each. */
-static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const Plane& plane,
+static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const FacePlane& plane,
                          uint32_t seed, uint32_t e) {
   uint32_t sides = 0;
   for (const uint32_t t : complex.triangles_of(e)) {
@@ -14588,7 +14518,7 @@ static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const P
 }
 
 static Status flood_face(const Complex& complex, const CurveEdges& curves,
-                         const StraightLines& lines, const FlatFaces& faces, const Plane& plane,
+                         const StraightLines& lines, const FlatFaces& faces, const FacePlane& plane,
                          uint32_t seed, FaceFlood* flood) {
   flood->member.clear();
   const auto add = [&](uint32_t t) {
@@ -14597,7 +14527,7 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     return flood->member.push(t);
   };
   TRY(add(seed));
-  for (size_t i = 0; i < flood->member.size() && flood->work <= k_most_work; ++i) {
+  for (size_t i = 0; i < flood->member.size() && flood->all_work() <= k_most_work; ++i) {
     TRY(flood->pause());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
@@ -14607,9 +14537,51 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
         if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
         if (is_line(complex, curves, lines, t)) continue;
-        if (!is_crossed(complex, lines, plane, seed, t, flood)) TRY(add(t));
+        if (!is_crossed(complex, lines, plane, seed, t, &flood->across)) TRY(add(t));
       }
     }
+  }
+  return {};
+}
+
+/* The plane of the triangles found, and how far off the one before they were at most. */
+static FacePlane plane_of_members(const Complex& complex, const FaceFlood& flood,
+                                  const FacePlane& plane, double* off) {
+  Vec3 normal, middle;
+  *off = 0.0;
+  for (const uint32_t t : flood.member) {
+    const uint32_t* const v = &complex.triangle[3 * size_t{t}];
+    const Vec3 &a = complex.point[v[0]], &b = complex.point[v[1]], &c = complex.point[v[2]];
+    const Vec3 n = cross(b - a, c - a);
+    if (dot(n, plane.normal) > 0.0) normal += n;
+    if (dot(n, plane.normal) < 0.0) normal -= n;
+    middle += (1.0 / 3.0) * (a - plane.at + (b - plane.at) + (c - plane.at));
+    for (uint32_t k = 0; k < 3; ++k) {
+      *off = larger(*off, std::fabs(dot(complex.point[v[k]] - plane.at, plane.normal)));
+    }
+  }
+  const double share = 1.0 / static_cast<double>(flood.member.size());
+  return {plane.at + share * middle, unit(normal), plane.flat};
+}
+
+/* With noise the plane of one triangle is askew: the planes of all that it has in reach follow. */
+static Status flood_plane(const Complex& complex, const CurveEdges& curves,
+                          const StraightLines& lines, const FlatFaces& faces, uint32_t seed,
+                          FacePlane* plane, FaceFlood* flood) {
+  constexpr uint32_t k_most_planes = 4;
+  for (uint32_t i = 0; i < k_most_planes; ++i) {
+    TRY(flood_face(complex, curves, lines, faces, *plane, seed, flood));
+    double off = 0.0;
+    const FacePlane next = plane_of_members(complex, *flood, *plane, &off);
+    if (off <= k_exact * plane->flat || i + 1 == k_most_planes) break;
+    if (flood->all_work() > k_most_work || !in_plane(complex, next, seed)) break;
+    for (const uint32_t t : flood->member) {
+      flood->mark[t] = k_none;
+      --flood->visits[t];
+      flood->across.crossed[t] = Crossed::unknown;
+    }
+    flood->across.plane_line_of = k_none;
+    *plane = next;
   }
   return {};
 }
@@ -14617,7 +14589,7 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
 /* Whether the triangle goes on, at each of its edges off the curves, on the other side. */
 static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
                               const StraightLines& lines, const FaceFlood& flood,
-                              const Plane& plane, uint32_t seed, uint32_t t) {
+                              const FacePlane& plane, uint32_t seed, uint32_t t) {
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
     if (on_rim(complex, curves, lines, e)) continue;
@@ -14629,7 +14601,7 @@ static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
 /* Leaves only triangles that go on all round: all of a face where curves close it, nothing where */
 /* not. */
 static Status close_face(const Complex& complex, const CurveEdges& curves,
-                         const StraightLines& lines, const Plane& plane, uint32_t seed,
+                         const StraightLines& lines, const FacePlane& plane, uint32_t seed,
                          FaceFlood* flood) {
   Array<uint32_t>& left = flood->left;
   TRY(left.copy(flood->member.span()));
@@ -14674,7 +14646,7 @@ static bool turns_well(const Complex& complex, uint32_t e, FaceFlood* flood) {
 }
 
 static bool is_polygon(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                       const Plane& plane, uint32_t seed, FaceFlood* flood) {
+                       const FacePlane& plane, uint32_t seed, FaceFlood* flood) {
   double whole = 0.0, straight = 0.0;
   bool corners = true;
   for (const uint32_t t : flood->member) {
@@ -14697,16 +14669,16 @@ static bool is_polygon(const Complex& complex, const CurveEdges& curves, const S
 }
 
 /* Whether a curve goes through the face, from one side to the other. */
-static bool is_pierced(const Complex& complex, const Plane& plane, const FaceFlood& flood) {
+static bool is_pierced(const Complex& complex, const FacePlane& plane, const FaceFlood& flood) {
   for (const uint32_t t : flood.member) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t v = complex.triangle[3 * size_t{t} + k];
       bool above = false, below = false, within = false;
-      for (uint32_t i = flood.next_start[v]; i < flood.next_start[v + 1]; ++i) {
-        const double off = dot(complex.point[flood.next[i]] - plane.at, plane.normal);
-        above = above || off > k_flat * complex.diagonal;
-        below = below || off < -k_flat * complex.diagonal;
-        within = within || std::fabs(off) <= k_flat * complex.diagonal;
+      for (uint32_t i = flood.across.next_start[v]; i < flood.across.next_start[v + 1]; ++i) {
+        const double off = dot(complex.point[flood.across.next[i]] - plane.at, plane.normal);
+        above = above || off > plane.flat;
+        below = below || off < -plane.flat;
+        within = within || std::fabs(off) <= plane.flat;
       }
       if (above && below && !within) return true;
     }
@@ -14715,7 +14687,7 @@ static bool is_pierced(const Complex& complex, const Plane& plane, const FaceFlo
 }
 
 /* Notes an arc that has the face on one side. */
-static Status add_rim(const Complex& complex, const Plane& plane, uint32_t arc, uint32_t e,
+static Status add_rim(const Complex& complex, const FacePlane& plane, uint32_t arc, uint32_t e,
                       uint32_t sides, uint32_t seed, FaceFlood* flood, FlatFaces* faces) {
   if (flood->rim_of[arc] == seed) return {};
   flood->rim_of[arc] = seed;
@@ -14737,7 +14709,7 @@ static bool runs_along(const Complex& complex, const Samples& samples, uint32_t 
 }
 
 static Status add_face(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const StraightLines& lines, const Plane& plane, uint32_t seed,
+                       const StraightLines& lines, const FacePlane& plane, uint32_t seed,
                        FaceFlood* flood, FlatFaces* faces) {
   for (const uint32_t t : flood->member) {
     faces->part[t] = faces->polygon.back() != 0 ? FlatPart::polygon : FlatPart::disc;
@@ -14765,17 +14737,17 @@ static Status add_face(const Complex& complex, const Samples& samples, const Cur
 }
 
 /* The plane of an arc that is not straight; none if it has no plane or is not to be looked at. */
-static bool plane_of_arc(const Complex& complex, const Samples& samples, uint32_t a, Plane* plane) {
+static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, FacePlane* plane) {
   const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
   const auto at = [&](uint32_t i) { return samples.position[samples.at[i]]; };
   Vec3 normal;
   for (uint32_t i = first + 1; i + 1 <= last; ++i) {
     normal += cross(at(i) - at(first), at(i + 1) - at(first));
   }
-  *plane = {at(first), unit(normal)};
+  *plane = {at(first), unit(normal), flat};
   for (uint32_t i = first; i <= last; ++i) {
     const double off = dot(at(i) - plane->at, plane->normal);
-    if (std::fabs(off) > 0.1 * k_flat * complex.diagonal) return false;
+    if (std::fabs(off) > 0.1 * flat) return false;
   }
   return dot(normal, normal) > 0.0;
 }
@@ -14783,18 +14755,19 @@ static bool plane_of_arc(const Complex& complex, const Samples& samples, uint32_
 /* Triangles at straight arcs, and those in the planes of others, which every face has, largest */
 /* first. */
 static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                         const StraightLines& lines, Array<double>* area, Array<uint32_t>* seeds) {
+                         const StraightLines& lines, double flat, Array<double>* area,
+                         Array<uint32_t>* seeds) {
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
-    Plane plane;
+    FacePlane plane;
     const bool straight = lines.is_straight(a);
-    if (!straight && !plane_of_arc(complex, samples, a, &plane)) continue;
+    if (!straight && !plane_of_arc(samples, a, flat, &plane)) continue;
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
         if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
         if (!straight && !in_plane(complex, plane, t)) continue;
-        (*area)[t] = twice_area(complex, t);
+        (*area)[t] = length(cross_of_triangle(complex, t));
         TRY(seeds->push(t));
       }
     }
@@ -14805,53 +14778,12 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
   return {};
 }
 
-static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
-                         FaceFlood* flood) {
-  for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
-    const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
-    if (first == last) continue;
-    const uint32_t arc = lines.arc[first];
-    const Vec3 from = complex.point[complex.same_as[samples.at[samples.start[arc]]]];
-    const Vec3 along =
-        complex.point[complex.same_as[samples.at[samples.start[arc + 1] - 1]]] - from;
-    Vec3 low = from, high = from;
-    for (uint32_t i = first; i < last; ++i) {
-      const uint32_t a = lines.arc[i];
-      for (uint32_t end = 0; end < 2; ++end) {
-        const uint32_t at = end == 0 ? samples.start[a] : samples.start[a + 1] - 1;
-        const Vec3& p = complex.point[complex.same_as[samples.at[at]]];
-        if (dot(p - low, along) < 0.0) low = p;
-        if (dot(p - high, along) > 0.0) high = p;
-      }
-    }
-    TRY(flood->line_end.push(low));
-    TRY(flood->line_end.push(high));
-  }
-  return flood->plane_line.reserve(flood->line_end.size());
-}
-
-static Status list_curved(const Complex& complex, const Samples& samples,
-                          const StraightLines& lines, FaceFlood* flood) {
-  Array<Vec3> point(flood->curved.context());
-  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
-    if (lines.is_straight(a)) continue;
-    for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
-      TRY(flood->curved.push(complex.same_as[samples.at[i]]));
-      TRY(point.push(complex.point[flood->curved.back()]));
-    }
-  }
-  return flood->grid.build(point.span());
-}
-
 static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
                           const StraightLines& lines, FaceFlood* flood, FlatFaces* faces) {
   TRY(faces->part.assign(complex.triangle_count(), FlatPart::none));
   TRY(faces->start.push(0));
   TRY(faces->rim_start.push(0));
-  TRY(list_lines(complex, samples, lines, flood));
-  TRY(list_curved(complex, samples, lines, flood));
-  TRY(flood->crossed.assign(complex.triangle_count(), Crossed::unknown));
-  TRY(link_segments(complex, curves, flood));
+  TRY(find_curves_across(complex, samples, curves, lines, &flood->across));
   TRY(flood->mark.assign(complex.triangle_count(), k_none));
   TRY(flood->visits.assign(complex.triangle_count(), 0));
   TRY(flood->seen.assign(complex.point.size(), 0));
@@ -14872,18 +14804,21 @@ static Status forget_faces(FlatFaces* faces) {
 }
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, FlatFaces* faces) {
+                       const CurveEdges& curves, const StraightLines& lines, double noise,
+                       FlatFaces* faces) {
+  const double flat = k_flat * complex.diagonal;
+  faces->flat = larger(flat, smaller(k_noise_off_plane * noise, k_most_noise * flat));
   FaceFlood flood(context);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
-  TRY(list_seeds(complex, samples, curves, lines, &area, &seeds));
+  TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
     if (flood.visits[seed] != 0) continue;
-    const Plane plane = plane_of(complex, seed);
-    if (is_crossed(complex, lines, plane, seed, seed, &flood)) continue;
-    TRY(flood_face(complex, curves, lines, *faces, plane, seed, &flood));
-    if (flood.work > k_most_work) return forget_faces(faces);
+    FacePlane plane = plane_of(complex, seed, faces->flat);
+    if (is_crossed(complex, lines, plane, seed, seed, &flood.across)) continue;
+    TRY(flood_plane(complex, curves, lines, *faces, seed, &plane, &flood));
+    if (flood.all_work() > k_most_work) return forget_faces(faces);
     TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
     TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
@@ -14936,10 +14871,10 @@ bool continue_flat(const FlatFaces& faces, const StraightLines& lines, const Fac
 /* ======== begin src/flow/flat_lids.cpp ======== */
 namespace wireskin::flow {
 
-static constexpr double k_off_plane = 3.0 * k_flat;  /* of the diagonal */
-static constexpr double k_sideways = 0.05;           /* sine of the angle between two faces' planes */
-static constexpr double k_same_wall = 0.7;           /* cosine of the angle between curves in it */
-static constexpr double k_look_along = 0.1;          /* of the diagonal */
+static constexpr double k_off_plane = 3.0;   /* times what counts as flat */
+static constexpr double k_sideways = 0.05;   /* sine of the angle between two faces' planes */
+static constexpr double k_same_wall = 0.7;   /* cosine of the angle between curves in it */
+static constexpr double k_look_along = 0.1;  /* of the diagonal */
 
 namespace {
 
@@ -15004,7 +14939,7 @@ static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
     const uint32_t i = forward ? first + k : last - k;
     const Vec3 to = samples.position[samples.at[i]] - samples.position[samples.at[from]];
     ++search->work;
-    if (std::fabs(dot(to, normal)) > k_off_plane * diagonal) return to;
+    if (std::fabs(dot(to, normal)) > k_off_plane * search->faces->flat) return to;
     if (std::fabs(samples.along[i] - samples.along[from]) > k_look_along * diagonal) break;
   }
   return {};
@@ -15028,6 +14963,12 @@ static bool runs_on(const LidSearch& search, uint32_t vertex, uint32_t end) {
   return false;
 }
 
+/* A curve that ends in mid-air shows no wall. */
+static bool is_loose(const LidSearch& search, uint32_t end) {
+  const uint32_t v = vertex_of_end(*search.complex, *search.samples, end);
+  return search.ends.start[v + 1] - search.ends.start[v] == 1;
+}
+
 /* Walls that curves show which leave the plane at an end of an arc. Those that leave it far apart, */
 /* seen along the arc, are in different walls: two on a side are enough to know. */
 static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, Sheets* sheets) {
@@ -15037,7 +14978,7 @@ static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, S
   uint32_t count[2] = {};
   for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
     const uint32_t end = search->ends.end[i];
-    if (end / 2 == rim_end / 2) continue;
+    if (end / 2 == rim_end / 2 || is_loose(*search, end ^ 1)) continue;
     const Vec3 across = unit(reject(leaving(search, end, normal), tangent));
     if (dot(across, across) == 0.0) continue;
     const uint32_t side = dot(across, normal) > 0.0 ? 0 : 1;
@@ -16646,7 +16587,8 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   StraightLines lines(context);
   FlatFaces faces(context);
   TRY(find_straight_lines(flow->complex, flow->samples, &lines));
-  TRY(find_flat_faces(context, flow->complex, flow->samples, flow->curves, lines, &faces));
+  TRY(find_flat_faces(context, flow->complex, flow->samples, flow->curves, lines, options.noise,
+                      &faces));
   TRY(find_flat_cells(context, flow->complex, flow->samples, flow->curves, lines, faces,
                       options.lids, &flow->cells));
   return find_persistence(context, flow->complex, &flow->persistence, flow->cells.turn.span());
@@ -21163,6 +21105,14 @@ static CrossingGrid choose_grid(Span<const Vec3> position, Span<const uint32_t> 
   return grid;
 }
 
+/* Triangles that lie close are many in some cells, so the pairs that are looked at are counted. */
+static Status pause_after_pairs(Context& context, uint32_t* pairs) {
+  constexpr uint32_t k_pairs_per_checkpoint = 1024;
+  if (++*pairs < k_pairs_per_checkpoint) return {};
+  *pairs = 0;
+  return context.checkpoint();
+}
+
 Status find_crossings(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                       size_t most, Array<uint32_t>* pairs) {
   pairs->clear();
@@ -21185,6 +21135,7 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
   for (size_t c = start.size() - 1; c > 0; --c) start[c] = start[c - 1];
   start[0] = 0;
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
+  uint32_t looked_at = 0;
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
     const Box box = box_of(position, &triangle[3 * size_t{t}]);
     Array<uint32_t>& found = *pairs;
@@ -21196,6 +21147,8 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
         met[other] = t;
         const uint32_t* const corners = &triangle[3 * size_t{other}];
         if (apart(box, box_of(position, corners))) continue;
+        if (status.ok()) status = pause_after_pairs(context, &looked_at);
+        if (!status.ok()) return;
         if (!triangles_cross(position, corners, &triangle[3 * size_t{t}])) continue;
         if (status.ok()) status = found.push(other);
         if (status.ok()) status = found.push(t);
@@ -21550,6 +21503,229 @@ Status radix_sort(Context& context, Array<BitsKey>* keys) {
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/radix_sort.cpp ======== */
 
+/* ======== begin src/flow/face_crossings.cpp ======== */
+namespace wireskin::flow {
+
+static constexpr double k_beside = 1e-5;  /* of the diagonal, from an edge */
+
+/* What segments of curves join each vertex to. */
+static Status link_segments(const Complex& complex, const CurveEdges& curves,
+                            CurvesAcross* across) {
+  size_t count = 0;
+  TRY(across->next_start.assign(complex.point.size() + 1, 0));
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (!curves.on_curve(e)) continue;
+    ++across->next_start[complex.edge[2 * size_t{e}]];
+    ++across->next_start[complex.edge[2 * size_t{e} + 1]];
+    count += 2;
+  }
+  TRY(across->next.resize(count));
+  starts_from_counts(across->next_start.span());
+  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (!curves.on_curve(e)) continue;
+    const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
+    across->next[across->next_start[a]++] = b;
+    across->next[across->next_start[b]++] = a;
+  }
+  for (size_t v = across->next_start.size() - 1; v > 0; --v) {
+    across->next_start[v] = across->next_start[v - 1];
+  }
+  across->next_start[0] = 0;
+  return {};
+}
+
+namespace {
+
+struct PlaneTriangle {
+  Vec3 corner[3], inward[3];  /* of the edge from each corner */
+  double longest = 0.0;
+  /* The longest edge, where the corners are in a row, but on no curve that they have in common: it */
+  /* has no inside to pass through, yet may reach across curves. Else 3. */
+  uint32_t sliver = 3;
+};
+
+}  /* namespace */
+
+/* Whether a piece of curve from p to q crosses one from a to b in their plane, away from its ends. */
+static bool crosses_edge(const FacePlane& plane, const Vec3& a, const Vec3& b, double margin,
+                         const Vec3& p, const Vec3& q) {
+  const Vec3 along = unit(b - a);
+  const Vec3 across = cross(plane.normal, along);
+  const double at_p = dot(p - a, across), at_q = dot(q - a, across);
+  if (larger(at_p, at_q) < margin || smaller(at_p, at_q) > -margin) return false;
+  const double t = at_p / (at_p - at_q);
+  const double at = dot(p + t * (q - p) - a, along);
+  return at > margin && at < length(b - a) - margin;
+}
+
+/* Whether a piece of curve from p to q passes through a triangle of its plane, not just beside or */
+/* along its edges. */
+static bool passes_through(const PlaneTriangle& triangle, double margin, const Vec3& p,
+                           const Vec3& q) {
+  double from = 0.0, to = 1.0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3 &b = triangle.corner[k], &inward = triangle.inward[k];
+    const double at_p = dot(p - b, inward) - margin, at_q = dot(q - b, inward) - margin;
+    if (at_p <= 0.0 && at_q <= 0.0) return false;
+    if (at_p < 0.0) from = larger(from, at_p / (at_p - at_q));
+    if (at_q < 0.0) to = smaller(to, at_p / (at_p - at_q));
+  }
+  return (to - from) * length(q - p) > margin;
+}
+
+static PlaneTriangle place_triangle(const Complex& complex, const FacePlane& plane, uint32_t t) {
+  PlaneTriangle triangle;
+  for (uint32_t k = 0; k < 3; ++k) {
+    triangle.corner[k] = complex.point[complex.triangle[3 * size_t{t} + k]];
+  }
+  const Vec3 n = cross_of_triangle(complex, t);
+  const Vec3 up = dot(n, plane.normal) > 0.0 ? plane.normal : -plane.normal;
+  uint32_t longest = 0;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const Vec3 side = triangle.corner[(k + 1) % 3] - triangle.corner[k];
+    const double size = length(side);
+    if (size > triangle.longest) longest = k;
+    triangle.longest = larger(triangle.longest, size);
+    triangle.inward[k] = cross(up, unit(side));
+  }
+  const double flat = 4.0 * k_beside * complex.diagonal * triangle.longest;
+  if (length(n) <= flat) triangle.sliver = longest;
+  return triangle;
+}
+
+static bool reaches_across(const FacePlane& plane, const PlaneTriangle& triangle, double margin,
+                           const Vec3& p, const Vec3& q) {
+  const uint32_t k = triangle.sliver;
+  if (k == 3) return passes_through(triangle, margin, p, q);
+  return crosses_edge(plane, triangle.corner[k], triangle.corner[(k + 1) % 3], margin, p, q);
+}
+
+static bool any_line_crosses(const Complex& complex, const FacePlane& plane, uint32_t seed,
+                             const PlaneTriangle& triangle, CurvesAcross* across) {
+  const Array<Vec3>& end = across->line_end;
+  if (across->plane_line_of != seed) {
+    across->plane_line_of = seed;
+    across->plane_line.clear();
+    across->work += end.size() / 2;
+    for (uint32_t i = 0; i < end.size(); i += 2) {
+      const bool within = near_plane(plane, end[i]) && near_plane(plane, end[i + 1]);
+      if (within) across->plane_line.push_reserved(i);
+    }
+  }
+  across->work += across->plane_line.size();
+  for (const uint32_t i : across->plane_line) {
+    const double margin = k_beside * complex.diagonal + across->line_bend[i / 2];
+    if (reaches_across(plane, triangle, margin, end[i], end[i + 1])) return true;
+  }
+  return false;
+}
+
+/* An end of a segment that runs across lies in a ball round the triangle, as no sample lies in that */
+/* of which the segment is a diameter. */
+static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
+                             const FacePlane& plane, const PlaneTriangle& triangle,
+                             CurvesAcross* across) {
+  if (across->curved.empty()) return false;
+  const Vec3 middle = (1.0 / 3.0) * (triangle.corner[0] + triangle.corner[1] + triangle.corner[2]);
+  const double margin = k_beside * complex.diagonal;
+  return across->grid.any_near(middle, triangle.longest, [&](uint32_t at) {
+    const uint32_t i = across->curved[at];
+    ++across->work;
+    if (!near_plane(plane, complex.point[i])) return false;
+    for (uint32_t k = across->next_start[i]; k < across->next_start[i + 1]; ++k) {
+      const Vec3& q = complex.point[across->next[k]];
+      if (!near_plane(plane, q) || !reaches_across(plane, triangle, margin, complex.point[i], q)) {
+        continue;
+      }
+      if (lines.common(i, across->next[k]) == k_none) return true;
+    }
+    return false;
+  });
+}
+
+static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
+                         CurvesAcross* across) {
+  for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
+    const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
+    if (first == last) continue;
+    const uint32_t arc = lines.arc[first];
+    const Vec3 from = complex.point[complex.same_as[samples.at[samples.start[arc]]]];
+    const Vec3 along =
+        complex.point[complex.same_as[samples.at[samples.start[arc + 1] - 1]]] - from;
+    Vec3 low = from, high = from;
+    for (uint32_t i = first; i < last; ++i) {
+      const uint32_t a = lines.arc[i];
+      for (uint32_t end = 0; end < 2; ++end) {
+        const uint32_t at = end == 0 ? samples.start[a] : samples.start[a + 1] - 1;
+        const Vec3& p = complex.point[complex.same_as[samples.at[at]]];
+        if (dot(p - low, along) < 0.0) low = p;
+        if (dot(p - high, along) > 0.0) high = p;
+      }
+    }
+    double bend = 0.0;
+    for (uint32_t i = first; i < last; ++i) {
+      for (uint32_t k = samples.start[lines.arc[i]]; k < samples.start[lines.arc[i] + 1]; ++k) {
+        const Vec3& p = complex.point[complex.same_as[samples.at[k]]];
+        bend = larger(bend, length(reject(p - low, unit(high - low))));
+      }
+    }
+    TRY(across->line_bend.push(bend));
+    TRY(across->line_end.push(low));
+    TRY(across->line_end.push(high));
+  }
+  return across->plane_line.reserve(across->line_end.size());
+}
+
+static Status list_curved(const Complex& complex, const Samples& samples,
+                          const StraightLines& lines, CurvesAcross* across) {
+  Array<Vec3> point(across->curved.context());
+  for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
+    if (lines.is_straight(a)) continue;
+    for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
+      TRY(across->curved.push(complex.same_as[samples.at[i]]));
+      TRY(point.push(complex.point[across->curved.back()]));
+    }
+  }
+  return across->grid.build(point.span());
+}
+
+Status find_curves_across(const Complex& complex, const Samples& samples, const CurveEdges& curves,
+                          const StraightLines& lines, CurvesAcross* across) {
+  TRY(list_lines(complex, samples, lines, across));
+  TRY(list_curved(complex, samples, lines, across));
+  TRY(across->crossed.assign(complex.triangle_count(), Crossed::unknown));
+  return link_segments(complex, curves, across);
+}
+
+/* The complex is embedded: where no flat tetrahedron lies at a triangle no edge runs over it. */
+static bool has_flat_neighbour(const Complex& complex, const FacePlane& plane, uint32_t t) {
+  for (uint32_t side = 0; side < 2; ++side) {
+    const uint32_t tet = complex.triangle_side[2 * size_t{t} + side];
+    if (tet == k_none) continue;
+    bool flat = true;
+    for (uint32_t k = 0; k < 4; ++k) {
+      flat = flat && near_plane(plane, complex.point[complex.tet[4 * size_t{tet} + k]]);
+    }
+    if (flat) return true;
+  }
+  return false;
+}
+
+bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
+                uint32_t seed, uint32_t t, CurvesAcross* across) {
+  if (!has_flat_neighbour(complex, plane, t)) return false;
+  if (across->crossed[t] == Crossed::unknown) {
+    const PlaneTriangle triangle = place_triangle(complex, plane, t);
+    const bool crossed = any_line_crosses(complex, plane, seed, triangle, across) ||
+                         any_bend_crosses(complex, lines, plane, triangle, across);
+    across->crossed[t] = crossed ? Crossed::yes : Crossed::no;
+  }
+  return across->crossed[t] == Crossed::yes;
+}
+
+}  /* namespace wireskin::flow */
+/* ======== end src/flow/face_crossings.cpp ======== */
+
 /* ======== begin src/flow/merge_cells.cpp ======== */
 namespace wireskin::flow {
 
@@ -21577,7 +21753,7 @@ struct Merging {
   Array<FacePlace> place;
   Array<CellPair> pair;
   Array<uint32_t> order;
-  Array<CellTurn> turn;                       /* of each cell, in this pass */
+  Array<CellTurn> turn;                   /* of each cell, in this pass */
   Array<uint32_t> degree;                 /* of each cell: its pairs */
   Array<uint32_t> first_pair, next_pair;  /* lists of pairs: of each cell, of both sides of a pair */
 
@@ -21596,14 +21772,8 @@ struct Merging {
 
 }  /* namespace */
 
-static Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
-  const uint32_t* const v = &complex.triangle[3 * size_t{t}];
-  const Vec3& a = complex.point[v[0]];
-  return cross(complex.point[v[1]] - a, complex.point[v[2]] - a);
-}
-
 /* Lower over its largest face than two layers of a flat face can be. */
-static bool is_flat_tet(const Complex& complex, uint32_t t) {
+static bool is_flat_tet(const Complex& complex, uint32_t t, double flat) {
   double largest = 0.0;
   for (uint32_t k = 0; k < 4; ++k) {
     const Vec3 n = cross_of_triangle(complex, complex.tet_triangle[4 * size_t{t} + k]);
@@ -21613,7 +21783,7 @@ static bool is_flat_tet(const Complex& complex, uint32_t t) {
   const Vec3& a = complex.point[v[0]];
   const double six =
       dot(complex.point[v[1]] - a, cross(complex.point[v[2]] - a, complex.point[v[3]] - a));
-  return six <= 2.0 * k_flat * complex.diagonal * std::sqrt(largest);
+  return six <= 2.0 * flat * std::sqrt(largest);
 }
 
 /* Cells between faces; what is flat all through, between the layers of a face, joins the cell */
@@ -21625,7 +21795,7 @@ static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces
   TRY(forest->solid.assign(size_t{outside} + 1, 0));
   for (uint32_t i = 0; i <= outside; ++i) {
     forest->parent[i] = i;
-    forest->solid[i] = i == outside || !is_flat_tet(complex, i);
+    forest->solid[i] = i == outside || !is_flat_tet(complex, i, faces.flat);
   }
   Array<uint32_t> separating(forest->parent.context());
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
@@ -22995,16 +23165,27 @@ static Status triangulate_loops(Context& context, const Loops& loops, Array<Vec3
   return put_back(kept, triangle);
 }
 
-/* Refines a copy of the triangulation; `*sound`: whether it has area, and no needle. */
-static Status refine_copy(const Loops& loops, double spacing, const LoopMesh& coarse,
-                          Array<Vec3>* point, Array<uint32_t>* triangle, bool* sound) {
-  Context& context = point->context();
+static bool has_sound_area(const Loops& loops, Span<const Vec3> point,
+                           Span<const uint32_t> triangle) {
   const double perimeter = perimeter_of(loops);
+  return sound_area(point, triangle) > k_no_area * perimeter * perimeter;
+}
+
+static Status take_unrefined(const Loops& loops, const LoopMesh& coarse, Array<Vec3>* point,
+                             Array<uint32_t>* triangle, bool* sound) {
   TRY(point->copy(loops.position));
   for (const Vec3& p : coarse.inner) TRY(point->push(p));
   TRY(triangle->copy(coarse.triangle.span()));
-  TRY(refine_loops(context, spacing, loops.start, point, triangle));
-  *sound = sound_area(point->span(), triangle->span()) > k_no_area * perimeter * perimeter;
+  *sound = has_sound_area(loops, point->span(), triangle->span());
+  return {};
+}
+
+/* Refines a copy of the triangulation; `*sound`: whether it has area, and no needle. */
+static Status refine_copy(const Loops& loops, double spacing, const LoopMesh& coarse,
+                          Array<Vec3>* point, Array<uint32_t>* triangle, bool* sound) {
+  TRY(take_unrefined(loops, coarse, point, triangle, sound));
+  TRY(refine_loops(point->context(), spacing, loops.start, point, triangle));
+  *sound = has_sound_area(loops, point->span(), triangle->span());
   return {};
 }
 
@@ -23016,15 +23197,20 @@ Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh
   Array<uint32_t> triangle(context);
   TRY(triangulate_loops(context, loops, &coarse.inner, &coarse.triangle));
   /* Where a border has edges far shorter than the rest the points added may line up with two others */
-  /* in a triangle that no flip removes: fewer of them do not. */
+  /* in a triangle that no flip removes: fewer of them do not, and none at the last. */
   bool sound = false;
+  bool coarser = false;
   for (int k = 0; k < k_tries && !sound; ++k) {
+    coarser = k > 0;
     TRY(refine_copy(loops, spacing * (1 << k), coarse, &point, &triangle, &sound));
   }
+  coarser = coarser || !sound;
+  if (!sound) TRY(take_unrefined(loops, coarse, &point, &triangle, &sound));
   if (!sound) return fail(Code::patch_folded, "the border of the patch encloses no area");
   const size_t n = loops.position.size();
   TRY(mesh->inner.copy(point.span().part(n, point.size() - n)));
   mesh->triangle = static_cast<Array<uint32_t>&&>(triangle);
+  mesh->coarse = coarser;
   return {};
 }
 
@@ -24911,19 +25097,22 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
 }
 
 /* About the number of entries of the product, from every 32nd column. */
-static uint64_t estimate_entries(const Factors& factors, Accumulator* gathered, size_t* work) {
+static Status estimate_entries(const Factors& factors, Accumulator* gathered, size_t* work,
+                               size_t* entries) {
   constexpr uint32_t k_step = 32;
-  uint64_t total = 0;
+  size_t total = 0;
   uint32_t j = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
     if (factors.unknown[column] == k_none) continue;
     if (j % k_step == 0) {
       gather_column(factors, column, j, gathered, work);
       total += gathered->count;
+      TRY(pause_for_checkpoint(gathered->mark.context(), work));
     }
     ++j;
   }
-  return total * k_step;
+  *entries = total * k_step;
+  return {};
 }
 
 /* Room for one more column, and where there was none, for some more. */
@@ -24941,7 +25130,7 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   Context& context = product->start.context();
   const Factors factors = {a, weight, b, unknown, part};
   Accumulator gathered(context);
-  size_t work = 0, room = 0;
+  size_t work = 0, room = 0, entries = 0;
   TRY(gathered.mark.assign(unknowns, k_none));
   TRY(gathered.sum.assign(unknowns, 0.0));
   TRY(gathered.rows.resize(size_t{unknowns} + 1));
@@ -24949,7 +25138,8 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   product->rows = product->cols = unknowns;
   product->row.clear();
   product->value.clear();
-  TRY(make_room(estimate_entries(factors, &gathered, &work), &room, product));
+  TRY(estimate_entries(factors, &gathered, &work, &entries));
+  TRY(make_room(entries, &room, product));
   for (uint32_t& m : gathered.mark) m = k_none;
   uint32_t j = 0;
   for (uint32_t column = 0; column < b.cols; ++column) {
@@ -26573,6 +26763,45 @@ static void judge_by_area(const Graph& graph, const Cycles& cycles, uint32_t h, 
   judged->outside[area < 0.0 ? c : rival] = 1;
 }
 
+/* A curve that hangs by one end in a cycle whose other segments are all boundary, k_none where the */
+/* cycle has other segments, too. */
+static uint32_t hanging_in_border(const Graph& graph, const Cycles& cycles, uint32_t cycle) {
+  uint32_t hanging = k_none;
+  for (uint32_t h = 0; h < cycles.next.size(); ++h) {
+    if (cycles.cycle[h] != cycle || graph.segment_of(h).boundary) continue;
+    if (!two_sided(cycles, h)) return k_none;
+    if (hanging == k_none) hanging = h;
+  }
+  return hanging;
+}
+
+/* What is wrong at a boundary segment h that has no surface, or surface on both sides. */
+static Status name_bad_border(const Graph& graph, const Cycles& cycles, Span<const uint8_t> inner,
+                              uint32_t h) {
+  const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
+  const char* sentence =
+      "this boundary curve has patches of other curves on both sides: every curve of a border must "
+      "be tagged as boundary, and no other, and normals must not point away from the surface";
+  uint32_t at = h;
+  if (a == b) {
+    sentence =
+        "the same patch lies on both sides of this boundary curve: it hangs by one end, or normals "
+        "where it ends point away from the surface";
+  } else if (!inner[a] && !inner[b]) {
+    sentence = "the normals do not tell on which side of this boundary curve the surface lies";
+  } else {
+    const uint32_t in_a = hanging_in_border(graph, cycles, a);
+    const uint32_t hanging = in_a != k_none ? in_a : hanging_in_border(graph, cycles, b);
+    if (hanging != k_none) {
+      at = hanging;
+      sentence = "this curve leads away from a border, out to where there is no surface";
+    }
+  }
+  const Segment& segment = graph.segment_of(at);
+  return fail_at_sample(Code::open_network, sentence, segment.curve,
+                        graph.curve_of(at).sample[segment.first_knot]);
+}
+
 /* Cycles all of whose segments are boundary lie outside when a neighbour across is a patch for */
 /* sure, or else when they run clockwise. */
 static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* judged,
@@ -26603,17 +26832,8 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* jud
     const Segment& segment = graph.segment_of(h);
     const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
     const int sides = !judged->outside[a] + !judged->outside[b];
-    const char* sentence = nullptr;
-    if (segment.boundary && sides != 1) {
-      sentence = !inner[a] && !inner[b] && a != b
-                     ? "the normals do not tell on which side of this boundary curve the surface "
-                       "lies"
-                     : "this boundary curve has the surface on both sides: every curve of a border "
-                       "must be tagged as boundary, and no other";
-    }
-    if (sentence == nullptr) continue;
-    const Status status = fail_at_sample(Code::open_network, sentence, segment.curve,
-                                         graph.curve_of(h).sample[segment.first_knot]);
+    if (!segment.boundary || sides == 1) continue;
+    const Status status = name_bad_border(graph, cycles, inner.span(), h);
     if (faults == nullptr) return status;
     (*faults)[h / 2] = status;
   }
@@ -27051,17 +27271,13 @@ static double segment_distance2(const Vec3& a, const Vec3& b, const Vec3& c, con
   return dot(gap, gap);
 }
 
-static double along_axis(const Vec3& p, uint32_t axis) {
-  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 static uint32_t widest_axis(Span<const Vec3> position) {
   uint32_t widest = 0;
   double most = -1.0;
   for (uint32_t axis = 0; axis < 3; ++axis) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const Vec3& p : position) {
-      const double at = along_axis(p, axis);
+      const double at = coordinate(p, axis);
       low = at < low ? at : low;
       high = at > high ? at : high;
     }
@@ -27089,7 +27305,7 @@ static Status find_crossing(const Border& border, double perimeter) {
   TRY(order.resize(border.size()));
   for (uint32_t i = 0; i < border.size(); ++i) order[i] = i;
   const auto low = [&](uint32_t i) {
-    const double from = along_axis(position[i], axis), to = along_axis(position[next[i]], axis);
+    const double from = coordinate(position[i], axis), to = coordinate(position[next[i]], axis);
     return from < to ? from : to;
   };
   sort(order.span(),
@@ -27146,42 +27362,37 @@ Status check_border(const Border& border) {
 /* ======== begin src/network/linking.cpp ======== */
 namespace wireskin::network {
 
-/* An edge of the border with the normal that it has, across it; `next`: the edge behind it. */
 namespace {
 
+/* An edge of the border with the normal that it has, across it; `next`: the edge behind it. */
 struct LinkedEdge {
   Vec3 from, to, tangent, normal;
   uint32_t next;
 };
 
+/* The same seen from afar. */
+struct SeenEdge {
+  Vec2 from, to;
+  double low, high;  /* its extent along the first axis of the view */
+  uint32_t edge;
+};
+
+/* What is seen along `toward`; `right` and it have a right angle. */
+struct LinkingView {
+  Vec3 toward, right;
+};
+
 }  /* namespace */
-
-/* The angle of the corner between the planes x y and y z of a spherical quadrilateral, signed. */
-static double arc_sine(double s) {
-  const double clamped = s < -1.0 ? -1.0 : s > 1.0 ? 1.0 : s;
-  return arc_tangent(clamped, std::sqrt((1.0 - clamped) * (1.0 + clamped)));
-}
-
-/* The signed solid angle over 4 pi from which two edges are seen to cross. */
-static double crossing_share(const LinkedEdge& e, const LinkedEdge& f) {
-  const Vec3 ac = f.from - e.from, ad = f.to - e.from, bc = f.from - e.to, bd = f.to - e.to;
-  const double side = dot(cross(f.to - f.from, e.to - e.from), ac);
-  if (side == 0.0) return 0.0;
-  const Vec3 n1 = unit(cross(ac, ad)), n2 = unit(cross(ad, bd));
-  const Vec3 n3 = unit(cross(bd, bc)), n4 = unit(cross(bc, ac));
-  const double angle =
-      arc_sine(dot(n1, n2)) + arc_sine(dot(n2, n3)) + arc_sine(dot(n3, n4)) + arc_sine(dot(n4, n1));
-  return (side > 0.0 ? angle : -angle) / (4.0 * k_pi);
-}
 
 /* How far the normals turn about the curve from an edge to the next one, in radians, against the */
 /* normal carried over by the least rotation. */
-static double twist_angle(const LinkedEdge& e, const LinkedEdge& f) {
+static double twist_angle(const LinkedEdge& e, const LinkedEdge& f, const Vec3& normal_e,
+                          const Vec3& normal_f) {
   const Vec3 axis = cross(e.tangent, f.tangent);
   const double cosine = dot(e.tangent, f.tangent);
   const Vec3 carried =
-      cosine * e.normal + cross(axis, e.normal) + (dot(axis, e.normal) / (1.0 + cosine)) * axis;
-  return arc_tangent(dot(cross(carried, f.normal), f.tangent), dot(carried, f.normal));
+      cosine * normal_e + cross(axis, normal_e) + (dot(axis, normal_e) / (1.0 + cosine)) * axis;
+  return arc_tangent(dot(cross(carried, normal_f), f.tangent), dot(carried, normal_f));
 }
 
 static Status take_edges(const Border& border, Array<LinkedEdge>* edges, bool* known) {
@@ -27202,23 +27413,89 @@ static Status take_edges(const Border& border, Array<LinkedEdge>* edges, bool* k
   return {};
 }
 
+/* A view along no edge: of a few that follow no axis the one in which edges look least shortened. */
+static LinkingView choose_view(Span<const LinkedEdge> edges) {
+  const Vec3 views[] = {{0.4142, 0.7321, 1.0}, {-0.8661, 0.3178, 0.5772}, {0.6931, -1.0, 0.2718}};
+  LinkingView best = {{}, {}};
+  double greatest = -1.0;
+  for (const Vec3& view : views) {
+    const Vec3 toward = unit(view);
+    double least = 1.0;
+    for (const LinkedEdge& e : edges) least = smaller(least, length(cross(e.tangent, toward)));
+    if (!(least > greatest)) continue;
+    greatest = least;
+    best = {toward, unit(cross(toward, Vec3{1.0, 0.0, 0.0}))};
+  }
+  return best;
+}
+
+static Status see_edges(Span<const LinkedEdge> edges, const LinkingView& view,
+                        Array<SeenEdge>* seen) {
+  const Vec3 up = cross(view.toward, view.right);
+  TRY(seen->reserve(edges.size()));
+  for (uint32_t i = 0; i < edges.size(); ++i) {
+    const LinkedEdge& e = edges[i];
+    const Vec2 from = {dot(e.from, view.right), dot(e.from, up)};
+    const Vec2 to = {dot(e.to, view.right), dot(e.to, up)};
+    seen->push_reserved({from, to, smaller(from.x, to.x), larger(from.x, to.x), i});
+  }
+  sort(seen->span(), [](const SeenEdge& a, const SeenEdge& b) {
+    return a.low != b.low ? a.low < b.low : a.edge < b.edge;
+  });
+  return {};
+}
+
+/* Exact, so that no rounding makes or loses one of two crossings that cancel. */
+static bool are_seen_to_cross(const SeenEdge& a, const SeenEdge& b) {
+  if (larger(a.from.y, a.to.y) < smaller(b.from.y, b.to.y)) return false;
+  if (larger(b.from.y, b.to.y) < smaller(a.from.y, a.to.y)) return false;
+  const bool from = orient2d(a.from, a.to, b.from) >= 0.0;
+  const bool to = orient2d(a.from, a.to, b.to) >= 0.0;
+  if (from == to) return false;
+  return (orient2d(b.from, b.to, a.from) >= 0.0) != (orient2d(b.from, b.to, a.to) >= 0.0);
+}
+
+static Status count_crossings(Span<const LinkedEdge> edges, Span<const SeenEdge> seen,
+                              Context* context, int32_t* sum) {
+  *sum = 0;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    for (size_t k = i + 1; k < seen.size() && seen[k].low <= seen[i].high; ++k) {
+      const LinkedEdge &e = edges[seen[i].edge], &f = edges[seen[k].edge];
+      if (e.next == seen[k].edge || f.next == seen[i].edge) continue;
+      if (!are_seen_to_cross(seen[i], seen[k])) continue;
+      const double side = dot(cross(f.to - f.from, e.to - e.from), f.from - e.from);
+      *sum += side > 0.0 ? 1 : side < 0.0 ? -1 : 0;
+    }
+    if (i % 64 == 63) TRY(context->checkpoint());
+  }
+  return {};
+}
+
+/* How often the normals turn about the curves against what looks towards the viewer. */
+static double turns_of_normals(Span<const LinkedEdge> edges, const Vec3& toward) {
+  double sum = 0.0;
+  for (const LinkedEdge& e : edges) {
+    const LinkedEdge& f = edges[e.next];
+    const Vec3 before = unit(reject(toward, e.tangent)), behind = unit(reject(toward, f.tangent));
+    sum += twist_angle(e, f, e.normal, f.normal) - twist_angle(e, f, before, behind);
+  }
+  return sum / (2.0 * k_pi);
+}
+
 Status linking_number(const Border& border, int32_t* number) {
   constexpr double k_near = 0.2;
   Context& context = border.vertex.context();
   Array<LinkedEdge> edges(context);
+  Array<SeenEdge> seen(context);
   bool known = false;
+  int32_t crossings = 0;
   *number = 0;
   TRY(take_edges(border, &edges, &known));
   if (!known) return {};
-  double sum = 0.0;
-  for (uint32_t i = 0; i < edges.size(); ++i) {
-    for (uint32_t j = i + 1; j < edges.size(); ++j) {
-      if (edges[i].next == j || edges[j].next == i) continue;
-      sum += 2.0 * crossing_share(edges[i], edges[j]);
-    }
-    sum += twist_angle(edges[i], edges[edges[i].next]) / (2.0 * k_pi);
-    if (i % 64 == 63) TRY(context.checkpoint());
-  }
+  const LinkingView view = choose_view(edges.span());
+  TRY(see_edges(edges.span(), view, &seen));
+  TRY(count_crossings(edges.span(), seen.span(), &context, &crossings));
+  const double sum = crossings + turns_of_normals(edges.span(), view.toward);
   const int32_t nearest = static_cast<int32_t>(sum < 0.0 ? sum - 0.5 : sum + 0.5);
   if (std::fabs(sum - nearest) < k_near) *number = nearest;
   return {};
@@ -27645,6 +27922,9 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   TRY(mesh_in_space(vertices, spacing, scratch));
   TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
+  if (scratch->spatial.coarse && builder->mesh->coarse_patches++ == 0) {
+    builder->mesh->first_coarse_patch = patch;
+  }
   return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
 }
 
@@ -29692,10 +29972,6 @@ Status add_sight_loop(const Border& border, uint32_t loop, uint32_t patch, bool 
 
 /* ---- The tree ----------------------------------------------------------------------------------- */
 
-static double coordinate(const Vec3& p, int axis) {
-  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 static SightBox box_of(const SightMap& map, uint32_t first, uint32_t count) {
   SightBox box = {map.place[map.order[first]].position, {}, first, count, k_none};
   box.high = box.low;
@@ -29710,7 +29986,7 @@ static SightBox box_of(const SightMap& map, uint32_t first, uint32_t count) {
 /* Sorts the places of a box along its longest side. */
 static void sort_box(const SightBox& box, SightMap* map) {
   const Vec3 side = box.high - box.low;
-  const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+  const uint32_t axis = side.x >= side.y && side.x >= side.z ? 0u : side.y >= side.z ? 1u : 2u;
   sort(map->order.span().part(box.first, box.count), [map, axis](uint32_t a, uint32_t b) {
     const double x = coordinate(map->place[a].position, axis);
     const double y = coordinate(map->place[b].position, axis);
@@ -30596,6 +30872,7 @@ static Status take_mesh(const Border& border, mesh::LoopMesh* made, SpaceMesh* m
 static Status take_loop_mesh(const Border& border, double spacing, SpaceMesh* mesh) {
   mesh::LoopMesh flat(mesh->position.context());
   TRY(mesh::mesh_loops(mesh->position.context(), loops_of(border), spacing, &flat));
+  mesh->coarse = flat.coarse;
   return take_mesh(border, &flat, mesh);
 }
 
@@ -30624,7 +30901,7 @@ static Status take_band(const Border& border, double spacing, SpaceMesh* mesh) {
 Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh) {
   constexpr int k_coarse_rounds = 2, k_fine_rounds = 1;
   mesh->raised = dot(mean_normal(border), unit(vector_area(border))) < k_least_closing;
-  mesh->band = false;
+  mesh->band = mesh->coarse = false;
   if (mesh->raised && border.loops() == 2) {
     TRY(take_band(border, spacing, mesh));
     if (mesh->band) return {};
@@ -30639,6 +30916,7 @@ Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mes
     TRY(raise_once(border, border.size(), mesh, &sound));
     TRY(refine_and_raise(border, held, coarse, k_coarse_rounds, mesh, &sound));
     TRY(refine_and_raise(border, held, spacing, k_fine_rounds, mesh, &sound));
+    mesh->coarse = false;  /* that was of the first mesh */
     if (sound) return {};
     if (border.loops() > 2) return take_branches(border, spacing, mesh);
   }
@@ -31200,6 +31478,13 @@ static bool bounds_others(const Network& network, Span<const uint32_t> patch_of,
   return true;
 }
 
+static Status name_leading_out(const Network& network, uint32_t p) {
+  Place place;
+  place.curve = network.segment[network.inner[p][0]].curve;
+  return fail(Code::open_network,
+              "this curve leads away from a border, out to where there is no surface", place);
+}
+
 Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network* network,
                      Array<Status>* faults, Array<uint32_t>* original) {
   Context& context = nodes->context();
@@ -31214,10 +31499,11 @@ Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network*
   }
   uint32_t outsides = 0;
   for (uint32_t p = 0; p < patches; ++p) {
-    if (!network->inner[p].empty() || !network->point[p].empty()) continue;
     if (!bounds_others(*network, patch_of.span(), status.span(), p)) continue;
     TRY(border_of_patch(*network, vertices, p, &border));
     if (!runs_clockwise(border)) continue;
+    if (!network->inner[p].empty() && faults->empty()) return name_leading_out(*network, p);
+    if (!network->inner[p].empty() || !network->point[p].empty()) continue;
     status[p] = fail(Code::patch_without_plane, "outside");
     ++outsides;
     if (p % 1024 == 1023) TRY(context.checkpoint());
@@ -33508,11 +33794,13 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   }
   TRY(mesh::triangle_shapes(input.position, input.triangle, &shapes));
   TRY(make_split_mesh(input, normal, shapes.span(), &split));
+  TRY(context_.checkpoint());
   TRY(area.resize(n));
   mesh::mixed_voronoi_areas(input.triangle, shapes.span(), area.span());
   TRY(mesh::cotangent_laplacian(n, input.triangle, shapes.span(), &laplacian));
   TRY(number_unknowns(input.held));
   TRY(make_rows(input, split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
+  TRY(context_.checkpoint());
   TRY(weight.resize(rows.rows));
   TRY(target.resize(rows.rows));
   make_targets(input, split, area.span(), normal, weight.span(), target.span());
@@ -33524,6 +33812,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
       rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
     }
   }
+  TRY(context_.checkpoint());
   const WeightedRows system = {rows, weight.span(), rhs.span()};
   bool solved = false;
   if (factorisations_ > 0 && !iterative_) {
@@ -34142,6 +34431,20 @@ static void freeze(const FairMesh& mesh, uint32_t patch, Guard* guard) {
   }
 }
 
+/* Puts all patches back that are not frozen. */
+static void freeze_all(const FairMesh& mesh, Guard* guard, FairReport* report) {
+  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+    const uint32_t patch = mesh.patch[h / 3];
+    if (guard->frozen[patch]) continue;
+    const uint32_t v = guard->triangle[h];
+    mesh.triangle[h] = v;
+    mesh.position[v] = guard->position[v];
+    guard->still[v] = guard->kept[v] = 1;
+    hold_back(mesh, patch, report);
+  }
+  for (uint8_t& frozen : guard->frozen) frozen = 1;
+}
+
 /* Compares the displacements of each patch with its size, before they are applied. */
 static Status watch(Context& context, const FairMesh& mesh, Span<const double> step, Guard* guard,
                     FairReport* report) {
@@ -34244,9 +34547,18 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   MinimumVariation solver(context);
   const double smoothing_length = options.smoothness * mean_patch_size(guard);
   for (int k = 0; k < options.displacement_steps; ++k) {
-    TRY(displacement_step(context, mesh, smoothing_length, curve_normal.span(), foretold, &solver,
-                          &guard, report));
+    const Status moved = displacement_step(context, mesh, smoothing_length, curve_normal.span(),
+                                           foretold, &solver, &guard, report);
+    /* Triangles too thin for a system of this order may do for those before. */
+    const bool singular = moved.code == Code::not_positive_definite;
+    if (singular) {
+      freeze_all(mesh, &guard, report);
+    } else {
+      TRY(moved);
+      report->residual = solver.residual();
+    }
     TRY(unfold(context, mesh, guard, &safe));
+    if (singular) break;
     double greatest = 0.0;
     for (size_t p = 0; p < guard.step.size(); ++p) {
       if (!guard.frozen[p] && guard.step[p] > greatest) greatest = guard.step[p];
@@ -34254,7 +34566,6 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     if (greatest < k_small_step) break;
   }
   put_back_folded(mesh, safe, report);
-  if (options.displacement_steps > 0) report->residual = solver.residual();
   report->factorisations = solver.factorisations();
   report->iterations = solver.iterations();
   return {};
@@ -35522,6 +35833,7 @@ void wsk_report_init(wsk_report* report, size_t size) {
   defaults.patch = defaults.vertex = defaults.triangle = WSK_NONE;
   defaults.first_ambiguous_patch = WSK_NONE;
   defaults.first_inverted_patch = WSK_NONE;
+  defaults.first_coarse_patch = WSK_NONE;
   wireskin::api::write_defaults(defaults, size, report);
 }
 
@@ -35757,6 +36069,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   TRY(context.enter(Stage::curves));
   TRY(smooth_polylines(context, polylines, flow_smoothing_of(options, scale), input.position.span(),
                        made->normal.span(), &made->noise));
+  inside.noise = made->noise.sigma_position;
   const Status status = flow::build_flow(context, polylines, inside, &made->flow);
   TRY(explain_rounding(status, made->given.span(), made->flow.step));
   TRY(list_voids(made->flow.persistence, Scale(made->exponent), &made->tables.voids));
