@@ -257,7 +257,8 @@ typedef struct wsk_options {
   /* The most memory the call may hold at any time, result included; 0: no cap. */
   size_t memory_cap;
 
-  /* Asked often; non-zero ends the call with WSK_ERROR_CANCELLED. */
+  /* Asked after about every 10 ms of work, beyond some hundred thousand vertices after a few dozen;
+     non-zero ends the call with WSK_ERROR_CANCELLED. */
   int32_t (*cancel)(void* user);
   void* cancel_user;
   /* Told the stage and how much of it is done (0 to 1). */
@@ -525,9 +526,10 @@ typedef struct wsk_surface_view {
   const uint32_t* patch_curves;      /* patch_curves[patch_curve_start[p]] and so on, ascending */
 
   /* Corners whose vertex has several sides, of which `normals` holds the mean: at sharp curves; and
-     in surfaces from curves alone, without normals that shaped them, at edges of curves where the
-     surface turns by more than 20 degrees or more than two patches meet. Corner k of triangle t is
-     3 t + k; ascending. Null, and none, where there is no crease. */
+     in surfaces from curves alone, unless normals shaped them, at edges between vertices on curves
+     where the surface turns by more than 20 degrees, at edges at which other than two triangles of
+     one orientation meet, and where sheets touch in a point. Corner k of triangle t is 3 t + k;
+     ascending. Null, and none, where there is no crease. */
   const uint32_t* crease_corners;
   const double* crease_normals; /* 3 a corner: the unit normal of its own side */
   uint32_t crease_corner_count;

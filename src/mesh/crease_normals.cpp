@@ -86,6 +86,7 @@ Status find_crease_normals(Context& context, Span<const Vec3> positions,
     if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
     const Vec3 here = face_normal(positions, triangles, h);
     const Vec3 there = face_normal(positions, triangles, twin);
+    if (here == Vec3{} || there == Vec3{}) continue;  // a triangle without area turns nowhere
     crease[h] = crease[twin] = dot(here, there) < k_crease_cosine;
   }
   TRY(cut_open(vertices, triangles, twins.span(), crease.span(), &cut));

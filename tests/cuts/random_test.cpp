@@ -105,6 +105,23 @@ size_t count_parts(const Mesh& mesh, const std::vector<Plane>& planes) {
 
 }  // namespace
 
+TEST_CASE("where a step is singular the surface is held back instead of failing") {
+  const std::string path = data_file("libigl-meshes/fandisk.off");
+  if (path.empty()) {
+    std::printf("skipped: WIRESKIN_TEST_DATA is not set\n");
+    return;
+  }
+  const Mesh mesh = cuts::read_mesh(path);
+  RealCase c;
+  c.truth = std::make_shared<MeshDistance>(mesh);
+  c.network = cut(mesh, random_planes(mesh, 19));
+  const Result result = build(c.network, WSK_METHOD_FAIR, c.truth->diagonal() / 60.0);
+  REQUIRE(result.status == WSK_OK);
+  CHECK(result.report.guarded_patches > 0);
+  CHECK(result.report.euler_characteristic == cuts::euler_characteristic(mesh));
+  CHECK(real_error(result, c).rms < 0.03 * c.truth->diagonal());
+}
+
 TEST_CASE("networks cut by random planes") {
   size_t found = 0;
   const char* asked = std::getenv("WIRESKIN_CUTS");  // so many of each mesh, reported one by one

@@ -66,6 +66,12 @@ TEST_CASE("crease normals: only edges of curves are creases") {
   CHECK(Creases(roof(1.0), k_roof_triangles, {0, 0, 1, 1, 0, 0}).corners().size() == 6);
 }
 
+TEST_CASE("crease normals: a triangle without area is no crease") {
+  // Vertex 4 lies on the edge from 1 to 2.
+  const std::vector<Vec3> flat = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {1, 0.5, 0}};
+  CHECK(Creases(flat, {0, 1, 4, 0, 4, 2, 1, 2, 4, 1, 3, 2}).corners().empty());
+}
+
 TEST_CASE("crease normals: a crease that ends inside the surface leaves its end alone") {
   // A fan of six triangles round vertex 0, folded along the edge from 0 to 1 alone.
   const std::vector<Vec3> fan = {{0, 0, 0},  {1, 0, 0.6},   {0.5, 1, 0}, {-0.5, 1, 0},
