@@ -176,4 +176,11 @@ inline uint32_t starts_from_counts(Span<uint32_t> counts) {
   return counts.empty() ? 0 : counts[counts.size() - 1];
 }
 
+// Undoes what filling does to starts: when each group has moved its start to its own end, which is
+// the next group's start, every start goes back by one group.
+inline void shift_starts_back(Span<uint32_t> starts) {
+  for (size_t i = starts.size(); i > 1; --i) starts[i - 1] = starts[i - 2];
+  if (!starts.empty()) starts[0] = 0;
+}
+
 }  // namespace wireskin

@@ -25,10 +25,7 @@ static Status link_segments(const Complex& complex, const CurveEdges& curves,
     across->next[across->next_start[a]++] = b;
     across->next[across->next_start[b]++] = a;
   }
-  for (size_t v = across->next_start.size() - 1; v > 0; --v) {
-    across->next_start[v] = across->next_start[v - 1];
-  }
-  across->next_start[0] = 0;
+  shift_starts_back(across->next_start.span());
   return {};
 }
 

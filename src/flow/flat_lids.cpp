@@ -56,8 +56,7 @@ static Status link_ends(const Complex& complex, const Samples& samples, ArcEnds*
   for (uint32_t i = 0; i < count; ++i) {
     ends->end[ends->start[vertex_of_end(complex, samples, i)]++] = i;
   }
-  for (size_t v = ends->start.size() - 1; v > 0; --v) ends->start[v] = ends->start[v - 1];
-  ends->start[0] = 0;
+  shift_starts_back(ends->start.span());
   return {};
 }
 

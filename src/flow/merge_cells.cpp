@@ -131,7 +131,7 @@ static double cost_of(const CurveFault& fault) {
 }
 
 // What the curves gain if the cells on both sides of these faces become one; below zero if one
-// would have no faces left.
+// would have fewer than two faces left.
 static double gain_of(const FlatFaces& faces, const StraightLines& lines, const Samples& samples,
                       const FaceRims& rims, FaceCells* cells, const CellPair& pair,
                       Merging* merging) {
