@@ -5,6 +5,7 @@
 namespace wireskin::flow {
 
 static constexpr double k_beside = 1e-5;  // of the diagonal, from an edge
+static constexpr uint32_t k_edges_per_pause = 1u << 18, k_arcs_per_pause = 1u << 10;
 
 // What segments of curves join each vertex to.
 static Status link_segments(const Complex& complex, const CurveEdges& curves,
@@ -12,6 +13,7 @@ static Status link_segments(const Complex& complex, const CurveEdges& curves,
   size_t count = 0;
   TRY(across->next_start.assign(complex.point.size() + 1, 0));
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (e % k_edges_per_pause == 0) TRY(across->next.context().checkpoint());
     if (!curves.on_curve(e)) continue;
     ++across->next_start[complex.edge[2 * size_t{e}]];
     ++across->next_start[complex.edge[2 * size_t{e} + 1]];
@@ -20,6 +22,7 @@ static Status link_segments(const Complex& complex, const CurveEdges& curves,
   TRY(across->next.resize(count));
   starts_from_counts(across->next_start.span());
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (e % k_edges_per_pause == 0) TRY(across->next.context().checkpoint());
     if (!curves.on_curve(e)) continue;
     const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
     across->next[across->next_start[a]++] = b;
@@ -141,6 +144,7 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
 static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
                          CurvesAcross* across) {
   for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
+    if (line % k_arcs_per_pause == 0) TRY(across->line_end.context().checkpoint());
     const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
     if (first == last) continue;
     const uint32_t arc = lines.arc[first];

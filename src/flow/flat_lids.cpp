@@ -270,7 +270,7 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
 Status find_lids(Context& context, const Complex& complex, const Samples& samples,
                  const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
                  Array<uint32_t>* open_lids) {
-  constexpr size_t k_work_per_checkpoint = 1u << 17;
+  constexpr size_t k_work_per_checkpoint = 1u << 16;
   LidSearch search(context);
   Discs discs(context);
   Array<uint8_t> is_disc(context);
