@@ -193,6 +193,7 @@ Status find_curves_across(const Complex& complex, const Samples& samples, const 
   TRY(list_lines(complex, samples, lines, across));
   TRY(list_curved(complex, samples, lines, across));
   TRY(across->crossed.assign(complex.triangle_count(), Crossed::unknown));
+  TRY(across->judged.reserve(complex.triangle_count()));
   return link_segments(complex, curves, across);
 }
 
@@ -218,6 +219,7 @@ bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePl
     const bool crossed = any_line_crosses(complex, plane, seed, triangle, across) ||
                          any_bend_crosses(complex, lines, plane, triangle, across);
     across->crossed[t] = crossed ? Crossed::yes : Crossed::no;
+    across->judged.push_reserved(t);
   }
   return across->crossed[t] == Crossed::yes;
 }

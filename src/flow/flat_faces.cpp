@@ -190,8 +190,8 @@ static Status flood_plane(const Complex& complex, const CurveEdges& curves,
     for (const uint32_t t : flood->member) {
       flood->mark[t] = k_none;
       --flood->visits[t];
-      flood->across.crossed[t] = Crossed::unknown;
     }
+    flood->across.forget_judged();
     flood->across.plane_line_of = k_none;
     *plane = next;
   }
@@ -431,6 +431,7 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
     TRY(flood.pause());
     if (flood.too_much()) return forget_faces(faces);
     if (flood.visits[seed] != 0) continue;
+    flood.across.judged.clear();
     FacePlane plane = plane_of(complex, seed, faces->flat);
     if (is_crossed(complex, lines, plane, seed, seed, &flood.across)) continue;
     TRY(flood_plane(complex, curves, lines, *faces, seed, &plane, &flood));
