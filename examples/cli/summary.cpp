@@ -51,20 +51,20 @@ std::vector<IdleOption> idle_options(const Arguments& arguments, const Network& 
 }
 
 // What was left to itself, or not looked at.
-static std::string flow_notes(const wsk_flow_view& view, double spacing) {
+static std::string flow_notes(const wsk_flow_view& view, const Arguments& arguments) {
   std::string text;
   if (view.open_lid_count > 0) {
-    text += counted(view.open_lid_count, "round end", "round ends") +
-            " left open, as of a tube; --lids all closes each\n";
+    text += counted(view.open_lid_count, "round end", "round ends") + " left open, as of a tube" +
+            (arguments.lids == WSK_LIDS_ALL ? "\n" : "; --lids all closes each\n");
   }
   if (view.faces_skipped != 0) {
     text += "flat faces are too many to be told apart: voids are judged by their ratios alone\n";
   }
   if (view.untried_count > 0) {
     text += counted(view.untried_count, "void was", "voids were") +
-            " not looked at, 200 of greater ratio were\n";
+            " not looked at: those of the least ratios\n";
   }
-  if (spacing > 1.5 * view.sampling) {
+  if (arguments.spacing > 1.5 * view.sampling) {
     char sampling[32];
     std::snprintf(sampling, sizeof sampling, "%.3g", view.sampling);
     text +=
@@ -182,7 +182,7 @@ std::string summary(const Arguments& arguments, const Network& network, const Bu
             std::to_string(result.report.first_coarse_patch) + "\n";
   }
   if (result.flow != nullptr) text += flow_lines(result.flow->view, arguments.voids);
-  if (result.flow != nullptr) text += flow_notes(result.flow->view, arguments.spacing);
+  if (result.flow != nullptr) text += flow_notes(result.flow->view, arguments);
   const uint32_t loose = result.flow != nullptr ? result.prepared_view().after.dangling_ends : 0;
   if (loose > 0) {
     text += counted(loose, "end of a curve meets", "ends of curves meet") +

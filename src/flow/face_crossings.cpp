@@ -5,6 +5,7 @@
 namespace wireskin::flow {
 
 static constexpr double k_beside = 1e-5;  // of the diagonal, from an edge
+static constexpr uint32_t k_edges_per_pause = 1u << 18, k_arcs_per_pause = 1u << 10;
 
 // What segments of curves join each vertex to.
 static Status link_segments(const Complex& complex, const CurveEdges& curves,
@@ -12,6 +13,7 @@ static Status link_segments(const Complex& complex, const CurveEdges& curves,
   size_t count = 0;
   TRY(across->next_start.assign(complex.point.size() + 1, 0));
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (e % k_edges_per_pause == 0) TRY(across->next.context().checkpoint());
     if (!curves.on_curve(e)) continue;
     ++across->next_start[complex.edge[2 * size_t{e}]];
     ++across->next_start[complex.edge[2 * size_t{e} + 1]];
@@ -20,15 +22,13 @@ static Status link_segments(const Complex& complex, const CurveEdges& curves,
   TRY(across->next.resize(count));
   starts_from_counts(across->next_start.span());
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (e % k_edges_per_pause == 0) TRY(across->next.context().checkpoint());
     if (!curves.on_curve(e)) continue;
     const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
     across->next[across->next_start[a]++] = b;
     across->next[across->next_start[b]++] = a;
   }
-  for (size_t v = across->next_start.size() - 1; v > 0; --v) {
-    across->next_start[v] = across->next_start[v - 1];
-  }
-  across->next_start[0] = 0;
+  shift_starts_back(across->next_start.span());
   return {};
 }
 
@@ -144,6 +144,7 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
 static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
                          CurvesAcross* across) {
   for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
+    if (line % k_arcs_per_pause == 0) TRY(across->line_end.context().checkpoint());
     const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
     if (first == last) continue;
     const uint32_t arc = lines.arc[first];
@@ -192,6 +193,7 @@ Status find_curves_across(const Complex& complex, const Samples& samples, const 
   TRY(list_lines(complex, samples, lines, across));
   TRY(list_curved(complex, samples, lines, across));
   TRY(across->crossed.assign(complex.triangle_count(), Crossed::unknown));
+  TRY(across->judged.reserve(complex.triangle_count()));
   return link_segments(complex, curves, across);
 }
 
@@ -217,6 +219,7 @@ bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePl
     const bool crossed = any_line_crosses(complex, plane, seed, triangle, across) ||
                          any_bend_crosses(complex, lines, plane, triangle, across);
     across->crossed[t] = crossed ? Crossed::yes : Crossed::no;
+    across->judged.push_reserved(t);
   }
   return across->crossed[t] == Crossed::yes;
 }

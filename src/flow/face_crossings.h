@@ -28,6 +28,7 @@ struct CurvesAcross {
   Array<uint32_t> curved;            // samples of arcs that bend
   Array<uint32_t> next_start, next;  // of each vertex: those that segments join it to
   Array<Crossed> crossed;            // of each triangle
+  Array<uint32_t> judged;            // those judged in the plane looked at
   size_t work = 0;                   // how much was looked at
 
   explicit CurvesAcross(Context& context)
@@ -38,7 +39,13 @@ struct CurvesAcross {
         curved(context),
         next_start(context),
         next(context),
-        crossed(context) {}
+        crossed(context),
+        judged(context) {}
+  // As planes follow what is in them: those judged in a plane left behind are unknown again.
+  void forget_judged() {
+    for (const uint32_t t : judged) crossed[t] = Crossed::unknown;
+    judged.clear();
+  }
 };
 
 inline bool near_plane(const FacePlane& plane, const Vec3& p) {

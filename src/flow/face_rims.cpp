@@ -17,8 +17,7 @@ Status link_rims(const FlatFaces& faces, uint32_t arcs, FaceRims* rims) {
   for (uint32_t i = 0; i < faces.rim.size(); ++i) {
     rims->rim[rims->start[faces.rim[i].arc]++] = i;
   }
-  for (size_t a = arcs; a > 0; --a) rims->start[a] = rims->start[a - 1];
-  rims->start[0] = 0;
+  shift_starts_back(rims->start.span());
   return {};
 }
 

@@ -50,8 +50,8 @@ static void each_in_middle(const Complex& complex, const FlatFaces& faces, uint3
   }
 }
 
-static Status list_open_lids(const Complex& complex, const FlatFaces& faces,
-                             Span<const uint32_t> lids, FlatCells* cells) {
+static Status list_lids(const Complex& complex, const FlatFaces& faces, Span<const uint32_t> lids,
+                        FlatCells* cells) {
   Status status;
   TRY(cells->lid_start.push(0));
   for (const uint32_t f : lids) {
@@ -124,13 +124,13 @@ Status find_flat_cells(Context& context, const Complex& complex, const Samples& 
   if (faces.size() == 0) return {};
   FaceRims rims(context);
   FaceCells between(context);
-  Array<uint32_t> open_lids(context);
+  Array<uint32_t> lid_faces(context);
   TRY(link_rims(faces, static_cast<uint32_t>(samples.start.size() - 1), &rims));
   TRY(find_face_cells(complex, faces, &rims, &between));
   TRY(merge_cells(context, samples, lines, faces, &rims, &between));
   TRY(keep_dangling(faces, lines, &rims));
-  TRY(find_lids(context, complex, samples, lines, faces, lids, &rims, &open_lids));
-  TRY(list_open_lids(complex, faces, open_lids.span(), cells));
+  TRY(find_lids(context, complex, samples, lines, faces, lids, &rims, &lid_faces));
+  TRY(list_lids(complex, faces, lid_faces.span(), cells));
   TRY(set_turns(complex, faces, rims, &between, &cells->turn));
   mark_needs(complex, samples, curves, lines, faces, rims, cells->need.span(), &cells->any_settled);
   return {};

@@ -21,7 +21,7 @@ struct FlatCells {
   Array<Pass> turn;  // of each triangle; empty where there are no faces
   Array<Need> need;  // of each edge of the curves, and of each chord
   bool any_settled = false;
-  // Lids that are left to the radii: of each the triangles in its middle, in all layers.
+  // Lids: of each the triangles in its middle, in all layers.
   Array<uint32_t> lid_start, lid_middle;
   bool given_up = false;  // on the faces
 

@@ -12,14 +12,14 @@ static constexpr double k_noise_off_plane = 3.0;  // times its standard deviatio
 static constexpr double k_most_noise = 10.0;      // times what is flat without noise
 static constexpr double k_exact = 0.02;  // of what counts as flat: planes are no matter of choice
 static constexpr uint8_t k_most_visits = 4;
-// Of lines and samples looked at; who draws faces as dense as that gets none.
-static constexpr size_t k_most_work = size_t{1} << 26;
-static constexpr size_t k_flood_per_checkpoint = size_t{1} << 17;
+static constexpr size_t k_flood_per_checkpoint = size_t{1} << 16;
+static constexpr uint32_t k_triangles_per_pause = 1u << 16;
 
 namespace {
 
 struct FaceFlood {
   CurvesAcross across;
+  size_t most_work;
   size_t work = 0, next_checkpoint = k_flood_per_checkpoint;
   Array<uint32_t> mark;               // of each triangle: the seed whose face it was last in
   Array<uint8_t> visits;              // of each triangle
@@ -30,8 +30,9 @@ struct FaceFlood {
   Array<uint32_t> rim_of;             // of each arc: the seed of the face that has it last
   Array<uint32_t> seen, border_edge;  // of each vertex: its edges on the border, and one of them
 
-  explicit FaceFlood(Context& context)
+  FaceFlood(Context& context, size_t most)
       : across(context),
+        most_work(most),
         mark(context),
         visits(context),
         member(context),
@@ -42,9 +43,10 @@ struct FaceFlood {
         seen(context),
         border_edge(context) {}
   size_t all_work() const { return work + across.work; }
+  bool too_much() const { return all_work() > most_work; }
   Status pause() {
-    if (work <= next_checkpoint) return {};
-    next_checkpoint = work + k_flood_per_checkpoint;
+    if (all_work() <= next_checkpoint) return {};
+    next_checkpoint = all_work() + k_flood_per_checkpoint;
     return mark.context().checkpoint();
   }
 };
@@ -137,8 +139,7 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     return flood->member.push(t);
   };
   TRY(add(seed));
-  for (size_t i = 0; i < flood->member.size() && flood->all_work() <= k_most_work; ++i) {
-    TRY(flood->pause());
+  for (size_t i = 0; i < flood->member.size() && !flood->too_much(); ++i) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
       ++flood->work;
@@ -148,6 +149,7 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
         if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
         if (is_line(complex, curves, lines, t)) continue;
         if (!is_crossed(complex, lines, plane, seed, t, &flood->across)) TRY(add(t));
+        TRY(flood->pause());
       }
     }
   }
@@ -184,12 +186,12 @@ static Status flood_plane(const Complex& complex, const CurveEdges& curves,
     double off = 0.0;
     const FacePlane next = plane_of_members(complex, *flood, *plane, &off);
     if (off <= k_exact * plane->flat || i + 1 == k_most_planes) break;
-    if (flood->all_work() > k_most_work || !in_plane(complex, next, seed)) break;
+    if (flood->too_much() || !in_plane(complex, next, seed)) break;
     for (const uint32_t t : flood->member) {
       flood->mark[t] = k_none;
       --flood->visits[t];
-      flood->across.crossed[t] = Crossed::unknown;
     }
+    flood->across.forget_judged();
     flood->across.plane_line_of = k_none;
     *plane = next;
   }
@@ -367,6 +369,7 @@ static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, FacePl
 static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
                          const StraightLines& lines, double flat, Array<double>* area,
                          Array<uint32_t>* seeds) {
+  size_t looked_at = 0;
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     FacePlane plane;
@@ -375,6 +378,7 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
+        if (++looked_at % k_triangles_per_pause == 0) TRY(area->context().checkpoint());
         if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
         if (!straight && !in_plane(complex, plane, t)) continue;
         (*area)[t] = length(cross_of_triangle(complex, t));
@@ -415,20 +419,23 @@ static Status forget_faces(FlatFaces* faces) {
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, double noise,
-                       FlatFaces* faces) {
+                       FlatFaces* faces, size_t most_work) {
   const double flat = k_flat * complex.diagonal;
   faces->flat = larger(flat, smaller(k_noise_off_plane * noise, k_most_noise * flat));
-  FaceFlood flood(context);
+  FaceFlood flood(context, most_work);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
   TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
+    TRY(flood.pause());
+    if (flood.too_much()) return forget_faces(faces);
     if (flood.visits[seed] != 0) continue;
+    flood.across.judged.clear();
     FacePlane plane = plane_of(complex, seed, faces->flat);
     if (is_crossed(complex, lines, plane, seed, seed, &flood.across)) continue;
     TRY(flood_plane(complex, curves, lines, *faces, seed, &plane, &flood));
-    if (flood.all_work() > k_most_work) return forget_faces(faces);
+    if (flood.too_much()) return forget_faces(faces);
     TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
     TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
@@ -436,6 +443,7 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
   }
   if (faces->size() == 0) return {};
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (t % k_triangles_per_pause == 0) TRY(context.checkpoint());
     if (is_line(complex, curves, lines, t)) faces->part[t] = FlatPart::line;
   }
   return {};

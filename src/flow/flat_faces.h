@@ -47,9 +47,12 @@ struct FlatFaces {
   uint32_t size() const { return static_cast<uint32_t>(normal.size()); }
 };
 
+// Of lines and samples looked at; who draws faces as dense as that gets none.
+inline constexpr size_t k_most_face_work = size_t{1} << 26;
+
 // `noise`: the standard deviation of the samples that was taken out, as corners have theirs still.
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, double noise,
-                       FlatFaces* faces);
+                       FlatFaces* faces, size_t most_work = k_most_face_work);
 
 }  // namespace wireskin::flow

@@ -56,8 +56,7 @@ static Status link_ends(const Complex& complex, const Samples& samples, ArcEnds*
   for (uint32_t i = 0; i < count; ++i) {
     ends->end[ends->start[vertex_of_end(complex, samples, i)]++] = i;
   }
-  for (size_t v = ends->start.size() - 1; v > 0; --v) ends->start[v] = ends->start[v - 1];
-  ends->start[0] = 0;
+  shift_starts_back(ends->start.span());
   return {};
 }
 
@@ -217,7 +216,7 @@ struct Discs {
 
 // Sections of what has a lid are in the way of its void: they are open.
 static Status keep_lids(Context& context, const LidSearch& search, const Discs& discs, Lids which,
-                        Array<uint32_t>* open_lids) {
+                        Array<uint32_t>* lids) {
   const FlatFaces& faces = *search.faces;
   const uint32_t arcs = search.rims->arc_count();
   Array<uint32_t> net(context), count(context);
@@ -230,7 +229,7 @@ static Status keep_lids(Context& context, const LidSearch& search, const Discs& 
   for (const uint32_t f : discs.lid) ++count[net_of(f)];
   for (const uint32_t f : discs.lid) {
     if (stay(net_of(f))) search.rims->state[f] = FaceState::dangling;
-    if (!stay(net_of(f))) TRY(open_lids->push(f));
+    TRY(lids->push(f));
   }
   for (const uint32_t f : discs.section) {
     if (stay(net_of(f))) search.rims->state[f] = FaceState::hole;
@@ -270,8 +269,8 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
 
 Status find_lids(Context& context, const Complex& complex, const Samples& samples,
                  const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
-                 Array<uint32_t>* open_lids) {
-  constexpr size_t k_work_per_checkpoint = 1u << 17;
+                 Array<uint32_t>* lids) {
+  constexpr size_t k_work_per_checkpoint = 1u << 16;
   LidSearch search(context);
   Discs discs(context);
   Array<uint8_t> is_disc(context);
@@ -307,7 +306,7 @@ Status find_lids(Context& context, const Complex& complex, const Samples& sample
   for (uint32_t f = 0; f < faces.size(); ++f) {
     if (is_disc[f] != 0) rims->state[f] = FaceState::inner;
   }
-  TRY(keep_lids(context, search, discs, which, open_lids));
+  TRY(keep_lids(context, search, discs, which, lids));
   return open_holes(context, &search, discs.hole.span());
 }
 

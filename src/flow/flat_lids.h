@@ -17,9 +17,9 @@ namespace wireskin::flow {
 // as open as its balls make it; all; none.
 enum class Lids : uint8_t { single, all, none };
 
-// `open_lids`: the faces that are lids but were not to stay.
+// `lids`: the faces that are lids, whether they were to stay or not.
 Status find_lids(Context& context, const Complex& complex, const Samples& samples,
                  const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
-                 Array<uint32_t>* open_lids);
+                 Array<uint32_t>* lids);
 
 }  // namespace wireskin::flow

@@ -6,6 +6,8 @@
 namespace wireskin::flow {
 
 static constexpr double k_cost_of_flat = 1.5;  // of a curve, where one face too many costs 1
+static constexpr uint32_t k_tets_per_pause = 1u << 16;
+static constexpr size_t k_rims_per_pause = size_t{1} << 17;
 
 namespace {
 
@@ -26,6 +28,7 @@ struct Merging {
   Array<uint32_t> live;    // of each arc: its parting faces, the first of its places
   Array<uint32_t> count;   // of each arc: those of the pair looked at, else zero
   Array<uint8_t> changed;  // of each arc, in this pass
+  size_t work = 0;         // arcs looked at since the last checkpoint
   Array<FacePlace> place;
   Array<CellPair> pair;
   Array<uint32_t> order;
@@ -70,11 +73,13 @@ static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces
   TRY(forest->parent.resize(size_t{outside} + 1));
   TRY(forest->solid.assign(size_t{outside} + 1, 0));
   for (uint32_t i = 0; i <= outside; ++i) {
+    if (i % k_tets_per_pause == 0) TRY(forest->parent.context().checkpoint());
     forest->parent[i] = i;
     forest->solid[i] = i == outside || !is_flat_tet(complex, i, faces.flat);
   }
   Array<uint32_t> separating(forest->parent.context());
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (t % k_tets_per_pause == 0) TRY(forest->parent.context().checkpoint());
     if (faces.part[t] == FlatPart::polygon || faces.part[t] == FlatPart::line) {
       TRY(separating.push(t));
     } else {
@@ -131,7 +136,7 @@ static double cost_of(const CurveFault& fault) {
 }
 
 // What the curves gain if the cells on both sides of these faces become one; below zero if one
-// would have no faces left.
+// would have fewer than two faces left.
 static double gain_of(const FlatFaces& faces, const StraightLines& lines, const Samples& samples,
                       const FaceRims& rims, FaceCells* cells, const CellPair& pair,
                       Merging* merging) {
@@ -141,6 +146,7 @@ static double gain_of(const FlatFaces& faces, const StraightLines& lines, const 
     for (uint32_t p = pair.first; p < pair.last; ++p) {
       const uint32_t f = merging->place[p].face;
       for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+        ++merging->work;
         visit(faces.rim[i].arc);
       }
     }
@@ -294,6 +300,9 @@ Status merge_cells(Context& context, const Samples& samples, const StraightLines
     gather_live(rims, &merging);
     for (CellPair& pair : merging.pair) {
       pair.gain = gain_of(faces, lines, samples, *rims, cells, pair, &merging);
+      if (merging.work < k_rims_per_pause) continue;
+      merging.work = 0;
+      TRY(context.checkpoint());
     }
     TRY(start_pass(&merging));
     for (const uint32_t i : merging.order) {

@@ -4,8 +4,8 @@
 // each face's state and the cells on its sides. A curve is where two faces make a crease: a third
 // face at it is one too many, and two in one plane leave nothing to draw a curve for. Cells are
 // merged, the outside among them, the best merger first, as long as that makes the curves' faults
-// fewer: three or more faces count as their length, two that are flat as half as much again, none
-// at all is not allowed. In passes over all faces left, each with all mergers that do not touch
+// fewer: three or more faces count as their length, two that are flat as half as much again, fewer
+// than two are not allowed. In passes over all faces left, each with all mergers that do not touch
 // each other: few, but for faces round one curve, of which each may take a pass. Source: G.
 // Markowsky, M. A. Wesley, "Fleshing Out Wire Frames", 1980, for cells; the weights are our own.
 #pragma once

@@ -123,11 +123,8 @@ Status find_straight_lines(const Complex& complex, const Samples& samples, Strai
       lines->line[lines->start[complex.same_as[samples.at[i]]]++] = lines->line_of[a];
     }
   }
-  for (size_t i = lines->start.size() - 1; i > 0; --i) lines->start[i] = lines->start[i - 1];
-  for (size_t i = lines->arc_start.size() - 1; i > 0; --i) {
-    lines->arc_start[i] = lines->arc_start[i - 1];
-  }
-  lines->start[0] = lines->arc_start[0] = 0;
+  shift_starts_back(lines->start.span());
+  shift_starts_back(lines->arc_start.span());
   return {};
 }
 

@@ -286,6 +286,42 @@ TEST_CASE("Round ends are open or closed as asked for, and those left open are c
   CHECK(closed.view.betti[2] == 1);
   CHECK(closed.view.open_lid_count == 0);
   CHECK(closed.view.caged_count == 1);
+  wish.voids = 0;
+  const Result bare = surface_of(can(), plain_options(), wish);
+  REQUIRE(bare.made == WSK_OK);
+  // Both ends stay: it is a side that is left open.
+  CHECK(bare.view.betti[2] == 0);
+  CHECK(bare.view.patch_count == 5);
+  CHECK(bare.view.open_lid_count == 0);
+}
+
+// Cubes in rows, none of whose faces is flat.
+static Curves crooked_grid(int cells) {
+  Curves net;
+  const int n = cells + 1;
+  const auto corner = [&](int i) {
+    const int at[3] = {i % n, i / n % n, i / n / n};
+    std::array<double, 3> p;
+    for (int k = 0; k < 3; ++k) p[size_t(k)] = at[k] + 0.1 * std::sin(7.0 * i + 2.0 * k);
+    return p;
+  };
+  for (int i = 0; i < n * n * n; ++i) {
+    for (int step = 1; step < n * n * n; step *= n) {
+      if (i / step % n == cells) continue;
+      const std::array<double, 3> a = corner(i), b = corner(i + step);
+      net.add({a[0], a[1], a[2], b[0], b[1], b[2]});
+    }
+  }
+  return net;
+}
+
+TEST_CASE("Voids beyond the most that are looked at are counted") {
+  const Result few = surface_of(crooked_grid(2));
+  CHECK(few.view.betti[2] == 8);
+  CHECK(few.view.untried_count == 0);
+  const Result many = surface_of(crooked_grid(6));
+  CHECK(many.view.betti[2] == 200);
+  CHECK(many.view.untried_count >= 16);
 }
 
 TEST_CASE("A view tells the sampling, and what was not looked at") {

@@ -644,3 +644,71 @@ TEST_CASE("from curves alone: ends that meet nothing are told, with what may joi
   REQUIRE(r.status == 0);
   CHECK(r.out.find("--snap LENGTH") == std::string::npos);
 }
+
+namespace {
+
+// Two circles and four rails, in the format .obj.
+std::string can_obj() {
+  constexpr int n = 48;
+  std::string rows, rings;
+  for (int i = 0; i < 2 * n; ++i) {
+    char row[100];
+    const double a = 2.0 * k_pi * (i % n) / n;
+    std::snprintf(row, sizeof row, "v %.17g %.17g %d\n", std::cos(a), std::sin(a), 2 * (i / n));
+    rows += row;
+    rings += (i % n == 0 ? "l " : " ") + std::to_string(i + 1);
+    if (i % n == n - 1) rings += " " + std::to_string(i + 2 - n) + "\n";
+  }
+  for (int i = 1; i <= n; i += n / 4) {
+    rings += "l " + std::to_string(i) + " " + std::to_string(i + n) + "\n";
+  }
+  return rows + rings;
+}
+
+// 6 x 6 x 6 cubes, none of whose faces is flat.
+std::string crooked_grid_obj() {
+  std::string rows, edges;
+  for (int i = 0; i < 343; ++i) {
+    const int at[3] = {i % 7, i / 7 % 7, i / 49};
+    rows += "v";
+    for (int k = 0; k < 3; ++k) {
+      rows += " " + std::to_string(at[k] + 0.1 * std::sin(7.0 * i + 2.0 * k));
+    }
+    rows += "\n";
+    for (int k = 0, step = 1; k < 3; ++k, step *= 7) {
+      if (at[k] == 6) continue;
+      edges += "l " + std::to_string(i + 1) + " " + std::to_string(i + step + 1) + "\n";
+    }
+  }
+  return rows + edges;
+}
+
+}  // namespace
+
+TEST_CASE("from curves alone: round ends left open, voids not looked at, the sampling") {
+  const ScratchFolder folder("command");
+  write_file(folder / "can.obj", can_obj());
+  Run r = run(folder, "can.obj -o s.obj --report s.json --spacing 1");
+  REQUIRE(r.status == 0);
+  CHECK(r.out.find("\n1 round end left open, as of a tube; --lids all closes each\n") !=
+        std::string::npos);
+  CHECK(r.out.find("no farther apart than the samples, 0.0693\n") != std::string::npos);
+  auto report = JsonReader(read_file(folder / "s.json")).values;
+  CHECK(report["flow.open_lids"] == "1");
+  CHECK(report["flow.flat_faces_skipped"] == "false");
+  CHECK(report["flow.untried_voids"] == "0");
+  CHECK(std::stod(report["flow.sampling"]) == doctest::Approx(0.02 * std::sqrt(12.0)));
+  r = run(folder, "can.obj -o s.obj --report s.json --lids all");
+  REQUIRE(r.status == 0);
+  CHECK(r.out.find("left open") == std::string::npos);
+  CHECK(r.out.find("no farther apart") == std::string::npos);
+  report = JsonReader(read_file(folder / "s.json")).values;
+  CHECK(report["flow.open_lids"] == "0");
+  write_file(folder / "grid.obj", crooked_grid_obj());
+  r = run(folder, "grid.obj -o s.obj --report s.json");
+  REQUIRE(r.status == 0);
+  report = JsonReader(read_file(folder / "s.json")).values;
+  CHECK(std::stoi(report["flow.untried_voids"]) >= 16);
+  CHECK(r.out.find("\n" + report["flow.untried_voids"] +
+                   " voids were not looked at: those of the least ratios\n") != std::string::npos);
+}

@@ -144,3 +144,40 @@ TEST_CASE("what another curve goes through is no face") {
   for (uint32_t i = 48; i < 96; ++i) net.vertex[i].x += 3.0;
   CHECK(Faces(net).faces.size() == 2);
 }
+
+namespace {
+
+// Straight lines to and fro in a plane, and a point off it.
+Net hatch(uint32_t lines) {
+  Net net;
+  for (uint32_t i = 0; i < 2 * lines; ++i) {
+    const double at = double(i / 2) / (lines - 1);
+    const double near = i % 2 == 0 ? 0.0 : 1.0;
+    net.add(i / 2 % 2 == 0 ? Vec3{near, at, 0} : Vec3{at, near, 0});
+    if (i % 2 == 1) net.edge(i - 1, i);
+  }
+  net.edge(0, net.add({0, 0, 1}));
+  return net;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "faces as dense as a bound on the work forbids are given up, and what is looked at may "
+    "be stopped all the while") {
+  FlowOf drawn(hatch(40));
+  StraightLines lines(drawn.heap.context);
+  const auto find = [&](size_t most) {
+    FlatFaces faces(drawn.heap.context);
+    must(find_flat_faces(drawn.heap.context, drawn.flow.complex, drawn.flow.samples,
+                         drawn.flow.curves, lines, 0.0, &faces, most));
+    CHECK((!faces.given_up || faces.size() == 0));
+    return faces.given_up;
+  };
+  must(find_straight_lines(drawn.flow.complex, drawn.flow.samples, &lines));
+  const size_t before = drawn.heap.checkpoints;
+  CHECK_FALSE(find(SIZE_MAX));
+  const size_t whole = drawn.heap.checkpoints - before;
+  CHECK(whole > 8);
+  CHECK(find(1000));
+}

@@ -19,7 +19,7 @@ struct LidsOf : FlowOf {
   FlatFaces faces{heap.context};
   FaceRims rims{heap.context};
   FaceCells cells{heap.context};
-  wireskin::Array<uint32_t> open{heap.context};
+  wireskin::Array<uint32_t> lids{heap.context};
 
   LidsOf(const Net& net, Lids which) : FlowOf(net) {
     must(find_straight_lines(flow.complex, flow.samples, &lines));
@@ -28,7 +28,7 @@ struct LidsOf : FlowOf {
     must(link_rims(faces, uint32_t(flow.samples.start.size() - 1), &rims));
     must(find_face_cells(flow.complex, faces, &rims, &cells));
     must(merge_cells(heap.context, flow.samples, lines, faces, &rims, &cells));
-    must(find_lids(heap.context, flow.complex, flow.samples, lines, faces, which, &rims, &open));
+    must(find_lids(heap.context, flow.complex, flow.samples, lines, faces, which, &rims, &lids));
   }
   size_t count(FaceState state) const {
     return size_t(std::count(rims.state.begin(), rims.state.end(), state));
@@ -39,10 +39,12 @@ struct LidsOf : FlowOf {
 
 TEST_CASE("a can has two lids, of which none is the only one") {
   const Net can = flow_tests::stack({{1, 0}, {1, 2}}, 4);
-  CHECK(LidsOf(can, Lids::all).count(FaceState::dangling) == 2);
+  const LidsOf all(can, Lids::all);
+  CHECK(all.count(FaceState::dangling) == 2);
+  CHECK(all.lids.size() == 2);
   const LidsOf single(can, Lids::single);
   CHECK(single.count(FaceState::dangling) == 0);
-  CHECK(single.open.size() == 2);
+  CHECK(single.lids.size() == 2);
 }
 
 TEST_CASE("a cone has one lid") {
@@ -50,7 +52,7 @@ TEST_CASE("a cone has one lid") {
   CHECK(LidsOf(cone, Lids::single).count(FaceState::dangling) == 1);
   const LidsOf none(cone, Lids::none);
   CHECK(none.count(FaceState::dangling) == 0);
-  CHECK(none.open.size() == 1);
+  CHECK(none.lids.size() == 1);
 }
 
 TEST_CASE("what walls leave to both sides is a section, open where there are lids") {
@@ -59,7 +61,7 @@ TEST_CASE("what walls leave to both sides is a section, open where there are lid
   CHECK(three.count(FaceState::hole) == 1);
   const LidsOf sphere(flow_tests::great_circles(), Lids::all);
   CHECK(sphere.count(FaceState::dangling) + sphere.count(FaceState::hole) == 0);
-  CHECK(sphere.open.empty());
+  CHECK(sphere.lids.empty());
 }
 
 TEST_CASE("circles that a torus lies flat on are no lids") {
@@ -68,7 +70,7 @@ TEST_CASE("circles that a torus lies flat on are no lids") {
 }
 
 TEST_CASE("a circle alone is no lid, two in a row neither") {
-  CHECK(LidsOf(flow_tests::stack({{1, 0}, {1, 1}}, 0), Lids::all).open.empty());
+  CHECK(LidsOf(flow_tests::stack({{1, 0}, {1, 1}}, 0), Lids::all).lids.empty());
   CHECK(LidsOf(flow_tests::stack({{1, 0}, {1, 1}}, 0), Lids::all).count(FaceState::dangling) == 0);
 }
 
