@@ -6,7 +6,7 @@
 // the areas are small in sum (network/ring_pairs.h), and sides left alone that see both loops of a
 // pair well joined to it. Both are settled: neither rule 3 nor rule 4 joins them again. Rings near
 // other curves, and rings near such ones, are left to these rules. O(n^2) in the distances of
-// loops, where there are rings at all, and about O(n) bands.
+// loops where there are rings at all; so many bands as network/ring_bands.h looks at.
 #pragma once
 
 #include "network/grouping.h"

@@ -187,7 +187,8 @@ static double evidence_for(Lookout* out, uint32_t from, const Tally& t) {
          k_for_spared * spared / (4.0 * k_pi) - k_against;
 }
 
-// Sums up what loop l sees of each group; of an undecided ring by the side seen first.
+// Sums up what loop l sees of each group; of an undecided ring by the side seen first. What rule 2
+// has settled hides what lies behind it, but is not joined again.
 static Status count_seen(uint32_t l, Lookout* out) {
   Grouping* g = out->g;
   const SightLoop& loop = out->map.loop[l];
@@ -198,7 +199,7 @@ static Status count_seen(uint32_t l, Lookout* out) {
     const uint32_t r = g->root(other.patch);
     const bool turned_away = g->network->ring[other.patch] && !out->undecided[other.patch] &&
                              other.reversed != (g->reversed[other.patch] != 0);
-    if (r == own || turned_away) continue;
+    if (r == own || turned_away || g->settled[other.patch]) continue;
     Tally* t = &out->tally[r];
     if (t->loop == k_none) {
       t->loop = s.loop;

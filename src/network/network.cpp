@@ -119,21 +119,27 @@ static void judge_by_area(const Graph& graph, const Cycles& cycles, uint32_t h, 
   judged->outside[area < 0.0 ? c : rival] = 1;
 }
 
-// A curve that hangs by one end in a cycle whose other segments are all boundary, k_none where the
-// cycle has other segments, too.
-static uint32_t hanging_in_border(const Graph& graph, const Cycles& cycles, uint32_t cycle) {
-  uint32_t hanging = k_none;
+// Of each cycle a curve that hangs by one end in it where its other segments are all boundary, else
+// k_none.
+static Status find_hanging(const Graph& graph, const Cycles& cycles, Array<uint32_t>* hanging) {
+  Array<uint8_t> bounded(hanging->context());  // has an untagged segment on one side only
+  TRY(hanging->assign(cycles.count, k_none));
+  TRY(bounded.assign(cycles.count, 0));
   for (uint32_t h = 0; h < cycles.next.size(); ++h) {
-    if (cycles.cycle[h] != cycle || graph.segment_of(h).boundary) continue;
-    if (!two_sided(cycles, h)) return k_none;
-    if (hanging == k_none) hanging = h;
+    const uint32_t c = cycles.cycle[h];
+    if (graph.segment_of(h).boundary) continue;
+    if (!two_sided(cycles, h)) bounded[c] = 1;
+    if ((*hanging)[c] == k_none) (*hanging)[c] = h;
   }
-  return hanging;
+  for (uint32_t c = 0; c < cycles.count; ++c) {
+    if (bounded[c]) (*hanging)[c] = k_none;
+  }
+  return {};
 }
 
 // What is wrong at a boundary segment h that has no surface, or surface on both sides.
 static Status name_bad_border(const Graph& graph, const Cycles& cycles, Span<const uint8_t> inner,
-                              uint32_t h) {
+                              Span<const uint32_t> hanging, uint32_t h) {
   const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
   const char* sentence =
       "this boundary curve has patches of other curves on both sides: every curve of a border must "
@@ -146,10 +152,9 @@ static Status name_bad_border(const Graph& graph, const Cycles& cycles, Span<con
   } else if (!inner[a] && !inner[b]) {
     sentence = "the normals do not tell on which side of this boundary curve the surface lies";
   } else {
-    const uint32_t in_a = hanging_in_border(graph, cycles, a);
-    const uint32_t hanging = in_a != k_none ? in_a : hanging_in_border(graph, cycles, b);
-    if (hanging != k_none) {
-      at = hanging;
+    const uint32_t found = hanging[a] != k_none ? hanging[a] : hanging[b];
+    if (found != k_none) {
+      at = found;
       sentence = "this curve leads away from a border, out to where there is no surface";
     }
   }
@@ -183,15 +188,19 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* jud
     if (two_sided(cycles, h)) continue;
     measured[c] = 1;
     judge_by_area(graph, cycles, h, judged);
+    if (c % 256 == 255) TRY(context.checkpoint());
   }
+  Array<uint32_t> hanging(context);
+  TRY(find_hanging(graph, cycles, &hanging));
   for (uint32_t h = 0; h < halves; h += 2) {
     const Segment& segment = graph.segment_of(h);
     const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
     const int sides = !judged->outside[a] + !judged->outside[b];
     if (!segment.boundary || sides == 1) continue;
-    const Status status = name_bad_border(graph, cycles, inner.span(), h);
+    const Status status = name_bad_border(graph, cycles, inner.span(), hanging.span(), h);
     if (faults == nullptr) return status;
     (*faults)[h / 2] = status;
+    if (h % 4096 == 4094) TRY(context.checkpoint());
   }
   // What lies there is to be named as a patch that fails, on either side of a ring too.
   for (uint32_t h = 0; faults != nullptr && h < halves; ++h) {

@@ -12,6 +12,22 @@ static constexpr double k_sharpest = 0.1;
 static constexpr double k_most_bent = 16.0;
 // First looks take every fourth place.
 static constexpr uint32_t k_coarse = 4;
+// A side gives up after so many looks at others that gave no band, or none better than those kept.
+static constexpr uint32_t k_most_in_vain = 64;
+
+namespace {
+
+// Another side that may be looked at, and the least cost that the band to it can have.
+struct RingRival {
+  double least;
+  uint32_t side;
+};
+
+}  // namespace
+
+static bool comes_later(const RingRival& x, const RingRival& y) {
+  return x.least != y.least ? x.least > y.least : x.side > y.side;
+}
 
 Status add_ring_side(const Border& border, const RingSide& side, RingBands* bands) {
   const uint32_t n = border.size(), own = static_cast<uint32_t>(bands->side.size());
@@ -86,27 +102,50 @@ static void keep_band(const RingBand& band, RingBand* kept, uint32_t* count) {
   kept[at] = band;
 }
 
-// No band has less area than the distance of the centres times its mean length.
-static uint32_t nearest_bands(const RingBands& bands, uint32_t a, RingBand* kept) {
-  uint32_t count = 0;
+// The sides of all other curves as a heap, the first one that whose band may be the least: no band
+// has less area than the distance of the centres times its mean length.
+static void heap_rivals(const RingBands& bands, uint32_t a, Array<RingRival>* heap) {
   const RingSide& own = bands.side[a];
+  heap->clear();
   for (uint32_t b = 0; b < bands.side.size(); ++b) {
     const RingSide& other = bands.side[b];
     if (other.component == own.component) continue;
-    const double least =
-        length(other.centre - own.centre) * 0.5 * (own.length + other.length) / band_weight(1.0);
-    if (count == k_ring_choices && !(least < kept[count - 1].cost)) continue;
+    const double width = 0.5 * (own.length + other.length);
+    heap->push_reserved({length(other.centre - own.centre) * width / band_weight(1.0), b});
+  }
+  for (size_t i = heap->size() / 2; i-- > 0;) {
+    sift_down(heap->data(), i, heap->size(), comes_later);
+  }
+}
+
+static uint32_t nearest_bands(const RingBands& bands, uint32_t a, Array<RingRival>* heap,
+                              RingBand* kept) {
+  uint32_t count = 0, in_vain = 0;
+  heap_rivals(bands, a, heap);
+  while (!heap->empty() && in_vain < k_most_in_vain) {
+    const RingRival rival = (*heap)[0];
+    if (count == k_ring_choices && !(rival.least < kept[count - 1].cost)) break;
+    (*heap)[0] = heap->back();
+    heap->pop();
+    if (!heap->empty()) sift_down(heap->data(), 0, heap->size(), comes_later);
+    const uint32_t b = rival.side;
     const RingBand band = band_of_places(bands, a < b ? a : b, a < b ? b : a, k_coarse);
-    if (band.cost == DBL_MAX) continue;
-    if (count < k_ring_choices || band.cost < kept[count - 1].cost) keep_band(band, kept, &count);
+    const bool better = count < k_ring_choices || band.cost < kept[count - 1].cost;
+    if (band.cost < DBL_MAX && better) {
+      keep_band(band, kept, &count);
+    } else {
+      ++in_vain;
+    }
   }
   return count;
 }
 
 Status list_ring_bands(RingBands* bands) {
   RingBand kept[k_ring_choices];
+  Array<RingRival> heap(bands->band.context());
+  TRY(heap.reserve(bands->side.size()));
   for (uint32_t a = 0; a < bands->side.size(); ++a) {
-    const uint32_t count = nearest_bands(*bands, a, kept);
+    const uint32_t count = nearest_bands(*bands, a, &heap, kept);
     for (uint32_t k = 0; k < count; ++k) {
       const RingBand band = band_between(*bands, kept[k].a, kept[k].b);
       if (band.cost < DBL_MAX) TRY(bands->band.push(band));

@@ -1,11 +1,12 @@
 // The sides of closed curves with places round them, and how much area a band between two takes.
 //
-// In: borders of patches. Out: sides, and for each the few others between which a band is least. A
-// band is taken place by place round both sides, the second against the first and shifted for the
-// least sum; a way from place to place counts as chord 8 / ((1 + cos a) (1 + cos b) (1 + cos t))
-// for its turns a and b and its twist t. The lid over a circle of area A is 2 A / (1 + m) times
-// (2 / (1 + m))^2 for the mean cosine m between normals and axis: so rims that bend back, walls
-// and lids compare by one measure. O(1) for a band, whatever the loops.
+// In: borders of patches. Out: sides, and for each the few others between which a band is least, of
+// the nearest ones. A band is taken place by place round both sides, the second against the first
+// and shifted for the least sum; a way from place to place counts as chord 8 / ((1 + cos a) (1 +
+// cos b) (1 + cos t)) for its turns a and b and its twist t. The lid over a circle of area A is 2 A
+// / (1 + m) times (2 / (1 + m))^2 for the mean cosine m between normals and axis: so rims that bend
+// back, walls and lids compare by one measure. O(1) for a band, whatever the loops; for the lists
+// O(n^2) in the distances of sides, and O(n) bands where few are the least for many.
 #pragma once
 
 #include "network/border.h"

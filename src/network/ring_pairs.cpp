@@ -47,19 +47,26 @@ struct Chain {
 
 }  // namespace
 
+// A checkpoint after so many bands: an exchange takes some microseconds.
+static Status pause_after_bands(uint32_t i, Context& context) {
+  return i % 1024 == 1023 ? context.checkpoint() : Status{};
+}
+
 static Status list_bands_of_sides(RingPairing* pairing) {
   Lists& of = pairing->bands_of;
   const RingBands& bands = *pairing->bands;
   TRY(of.start.assign(bands.side.size() + 1, 0));
   TRY(of.item.resize(2 * bands.band.size()));
-  for (const RingBand& band : bands.band) {
-    ++of.start[band.a];
-    ++of.start[band.b];
+  for (uint32_t i = 0; i < bands.band.size(); ++i) {
+    ++of.start[bands.band[i].a];
+    ++of.start[bands.band[i].b];
+    TRY(pause_after_bands(i, of.item.context()));
   }
   starts_from_counts(of.start.span());
   for (uint32_t i = 0; i < bands.band.size(); ++i) {
     of.item[of.start[bands.band[i].a]++] = i;
     of.item[of.start[bands.band[i].b]++] = i;
+    TRY(pause_after_bands(i, of.item.context()));
   }
   for (size_t s = of.start.size() - 1; s > 0; --s) of.start[s] = of.start[s - 1];
   of.start[0] = 0;
@@ -201,13 +208,16 @@ static bool is_free(const RingPairing& pairing, uint32_t s) {
 }
 
 // The bands with the least cost first.
-static void pair_nearest(double least_cosine, RingPairing* pairing) {
-  for (const RingBand& band : pairing->bands->band) {
+static Status pair_nearest(double least_cosine, RingPairing* pairing) {
+  for (uint32_t i = 0; i < pairing->bands->band.size(); ++i) {
+    const RingBand& band = pairing->bands->band[i];
+    TRY(pause_after_bands(i, pairing->partner.context()));
     if (!may_link(*pairing, band, least_cosine)) continue;
     if (!is_free(*pairing, band.a) || !is_free(*pairing, band.b)) continue;
     const double alone = cost_of_side(*pairing, band.a) + cost_of_side(*pairing, band.b);
     if (band.cost < alone) link_sides(band, pairing);
   }
+  return {};
 }
 
 // Every round saves something, so there is an end; a few rounds get where many would.
@@ -216,7 +226,9 @@ static Status exchange_partners(double least_cosine, RingPairing* pairing) {
   bool any = true;
   for (int round = 0; any && round < k_most_rounds; ++round) {
     any = false;
-    for (const RingBand& band : pairing->bands->band) {
+    for (uint32_t i = 0; i < pairing->bands->band.size(); ++i) {
+      const RingBand& band = pairing->bands->band[i];
+      TRY(pause_after_bands(i, pairing->partner.context()));
       if (!may_link(*pairing, band, least_cosine)) continue;
       any = change_by(band, least_cosine, true, pairing) < k_saves || any;
     }
@@ -242,8 +254,10 @@ static void prefer_lids_in_sight(RingPairing* pairing) {
     side.alone *= band_weight(0.0) / band_weight(side.cosine);
 }
 
-static void mark_doubtful(RingPairing* pairing, Span<uint8_t> doubtful) {
-  for (const RingBand& band : pairing->bands->band) {
+static Status mark_doubtful(RingPairing* pairing, Span<uint8_t> doubtful) {
+  for (uint32_t i = 0; i < pairing->bands->band.size(); ++i) {
+    const RingBand& band = pairing->bands->band[i];
+    TRY(pause_after_bands(i, pairing->partner.context()));
     const RingSide &a = pairing->bands->side[band.a], &b = pairing->bands->side[band.b];
     bool as_good = false;
     if (pairing->partner[band.a] == band.b) {
@@ -253,6 +267,7 @@ static void mark_doubtful(RingPairing* pairing, Span<uint8_t> doubtful) {
     }
     if (as_good) doubtful[band.a] = doubtful[band.b] = 1;
   }
+  return {};
 }
 
 Status pair_sides(RingBands* bands, Array<uint32_t>* partner, Array<uint8_t>* doubtful) {
@@ -265,13 +280,13 @@ Status pair_sides(RingBands* bands, Array<uint32_t>* partner, Array<uint8_t>* do
   TRY(doubtful->assign(sides, 0));
   TRY(list_ring_bands(bands));
   TRY(list_bands_of_sides(&pairing));
-  pair_nearest(k_in_sight, &pairing);
+  TRY(pair_nearest(k_in_sight, &pairing));
   TRY(exchange_partners(k_in_sight, &pairing));
   fix_partners(&pairing);
   prefer_lids_in_sight(&pairing);
-  pair_nearest(-1.0, &pairing);
+  TRY(pair_nearest(-1.0, &pairing));
   TRY(exchange_partners(-1.0, &pairing));
-  mark_doubtful(&pairing, doubtful->span());
+  TRY(mark_doubtful(&pairing, doubtful->span()));
   return partner->copy(pairing.partner.span());
 }
 

@@ -199,3 +199,20 @@ TEST_CASE("sight: a cap stays a cap") {
   Stages s(fingers);
   CHECK(loops_of(s) == Loops(12, 1));
 }
+
+// Far from the rails rule 2 has closed the end of the tube by a lid: what looks there is too late.
+TEST_CASE("sight: rings that are settled are not joined again") {
+  for (double far : {16.0, 24.0, 40.0}) {
+    for (bool tagged : {false, true}) {
+      CAPTURE(far);
+      CAPTURE(tagged);
+      CurveNet net;
+      add_ring(&net, straight, 1.0, 0.0, tagged);
+      add_ring(&net, straight, 1.0, 1.0, tagged);
+      for (double t : {far, far + 1.0}) add_ring(&net, straight, 1.0, t);
+      add_rails(&net, straight, 1.0, {far, far + 1.0});
+      Stages s(net);
+      CHECK(loops_of(s, 0.3) == tubes_and_discs(1, tagged ? 4 : 6));
+    }
+  }
+}

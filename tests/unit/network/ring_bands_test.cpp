@@ -24,6 +24,15 @@ struct Scene {
     side.patch = side.component = own;
     must(add_ring_side(one.border, side, &bands));
   }
+  void add_disc(const Vec3& centre, double radius) {
+    RibbonBorder one;
+    one.add(96, [=](double a) {
+      return std::make_pair(centre + radius * Vec3{std::cos(a), std::sin(a), 0}, Vec3{0, 0, 1});
+    });
+    RingSide side;
+    side.patch = side.component = static_cast<uint32_t>(bands.side.size());
+    must(add_ring_side(one.border, side, &bands));
+  }
 };
 
 }  // namespace
@@ -85,5 +94,26 @@ TEST_CASE("rings: the bands listed are the least ones of each side") {
       least = std::min(least, cost);
     }
     CHECK(listed(a, best));
+  }
+}
+
+// Small discs round the foot of a tube give no band with it; a few dozen do not keep it from its
+// other end, but with thousands every side would look at every other one.
+TEST_CASE("rings: a side gives up after many others that give no band") {
+  for (uint32_t discs : {30u, 60u, 100u, 400u}) {
+    CAPTURE(discs);
+    Scene s;
+    s.add(1.0, 0.0, true, k_pi / 2);
+    s.add(1.0, 4.0, false, k_pi / 2);
+    for (uint32_t k = 0; k < discs; ++k) {
+      const double a = 2 * k_pi * k / discs;
+      const Vec3 centre = {3.0 * std::cos(a), 3.0 * std::sin(a), -2.0};
+      s.add_disc(centre, 0.1);
+      REQUIRE(band_between(s.bands, 0, 2 + k).cost == DBL_MAX);
+    }
+    must(list_ring_bands(&s.bands));
+    bool found = false;
+    for (const RingBand& band : s.bands.band) found = found || (band.a == 0 && band.b == 1);
+    CHECK(found == (discs <= 60));
   }
 }

@@ -109,3 +109,17 @@ TEST_CASE("pairs: a choice that is as good as another one is doubtful") {
   CHECK(tube.partner[0] == 1);
   CHECK(tube.doubtful[0] == 0);
 }
+
+TEST_CASE("pairs: many bands have checkpoints between them") {
+  Scene s;
+  constexpr uint32_t n = 400;
+  for (uint32_t i = 0; i < n; ++i) s.add(1.0, 0.5 * i, i % 2 == 0, k_pi / 2, 20.0);
+  must(list_ring_bands(&s.bands));
+  const size_t listing = s.heap.checkpoints, bands = s.bands.band.size();
+  REQUIRE(bands > 1024);
+  s.bands.band.clear();
+  s.heap.checkpoints = 0;
+  s.pair();
+  // Two passes to list the bands of sides, two to pair, at least two rounds, one for doubts.
+  CHECK(s.heap.checkpoints >= listing + 7 * (bands / 1024) + 2);
+}
