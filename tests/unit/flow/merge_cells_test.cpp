@@ -70,7 +70,8 @@ TEST_CASE("the room below a spire and that within are one") {
 }
 
 TEST_CASE("every hole of a plate becomes outside, and no face is left in it") {
-  for (const auto& [n, rows] : {std::pair<int, int>{1, 1}, {4, 1}, {3, 3}}) {
+  for (const auto& grid : {std::pair<int, int>{1, 1}, {4, 1}, {3, 3}}) {
+    const int n = grid.first, rows = grid.second;
     CAPTURE(n);
     MergedOf plate(plate_with_holes(n, rows));
     const size_t holes = size_t(n * rows);
