@@ -147,7 +147,7 @@ static Status find_borders(const curves::Curves& fitted, Array<network::Node>* n
                            Array<Status>* faults, Counts* counts) {
   Context& context = nodes->context();
   Array<uint32_t> original(context);
-  TRY(network::drop_outsides(*vertices, nodes, network, faults, &original));
+  TRY(network::drop_outsides(fitted, *vertices, nodes, network, faults, &original));
   if (original.empty()) return {};
   counts->found_borders = counts->patches - network->patches();
   counts->patches = network->patches();

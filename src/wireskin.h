@@ -127,7 +127,8 @@ enum {
   /* Samples of the same node lie farther apart than 1e-9 of the diagonal of the bounding box. */
   WSK_ERROR_NODE_MISMATCH = 15,
   /* A curve or a point bounds no patch and lies inside none; a boundary curve has the surface on
-     both sides, or nothing tells on which. */
+     both sides, or nothing tells on which; a curve leads away from a border, out to where there is
+     no surface. */
   WSK_ERROR_OPEN_NETWORK = 16,
   /* Normals turn by more than 120 degrees between neighbouring samples, point to different sides of
      the surface there or at a node, or leave the order of the curves round a node undecided. If
@@ -287,7 +288,8 @@ typedef struct wsk_options {
      of its squared perimeter and lies more than 123 degrees from the mean of its normals) the
      surface ends instead; wsk_report.found_borders counts such places. The ends of tubes and domes,
      whose normals stand across their vector area, do not tell and must still be tagged, and so must
-     holes, which would be closed. Zero (the default): such a patch is an error. */
+     holes, which would be closed. A curve that leads away from such a border is an error
+     (WSK_ERROR_OPEN_NETWORK). Zero (the default): such a patch is an error. */
   int32_t find_borders;
 } wsk_options;
 
@@ -364,8 +366,8 @@ typedef struct wsk_report {
   double total_ms;
   wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
   uint32_t failed_patches; /* left out because of wsk_options.partial */
-  /* Patches of several loops that might as well have been joined otherwise, or closed each alone:
-     the other choice had less than a tenth more area, or the evidence of their normals for this one
+  /* Patches, of several loops or of one, that might as well have been joined otherwise, or closed
+     each alone: the other choice had less than a tenth more area, or the evidence of their normals for this one
      was next to none. WSK_NONE where there is no first one. */
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
@@ -449,6 +451,9 @@ typedef struct wsk_curve {
  * lies inside a patch, seen in its plane, becomes part of it (a boundary loop is a hole in it,
  * another closed curve bounds two patches, dangling curves and points hold the surface), and loops
  * that face each other along the surface bound a band, if that takes less area than closing both.
+ * Closed curves apart from all others are joined in pairs so that the area is least over all. A
+ * closed curve with surface on both sides that lies inside another one, in its plane, is left to
+ * these pairs and not taken into the patch of the plane.
  * Where a patch's border is seen without folds from the mean of its normals (for ITERATED and FAIR:
  * and not too steeply, the mean cosine between them being at least 1/4) it is triangulated in that
  * plane, else by a triangulation of least area in space (G. Barequet, M. Sharir, "Filling Gaps in

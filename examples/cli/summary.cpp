@@ -135,7 +135,7 @@ static std::string doubts(const wsk_report& report) {
   std::string text;
   if (report.ambiguous_patches > 0) {
     text += counted(report.ambiguous_patches, "patch", "patches") +
-            " of several loops might as well be joined otherwise, the first is " +
+            " that might as well be joined otherwise, the first is " +
             std::to_string(report.first_ambiguous_patch) + "\n";
   }
   if (report.normal_deviation_max_deg > k_much) {

@@ -64,13 +64,13 @@ static bool are_apart(const Loops& loops, Span<const BranchEnd> ends, uint32_t a
   const Vec3 move = part * (ends[b].way - ends[a].way);
   const uint32_t n = loops.start[a + 1] - loops.start[a], m = loops.start[b + 1] - loops.start[b];
   bool apart = true;
-  for (uint32_t i = 0; i < k_probes_of_end; ++i) {
+  for (uint32_t i = 0; apart && i < k_probes_of_end; ++i) {
     const uint32_t v = loops.start[a] + static_cast<uint32_t>(uint64_t{i} * n / k_probes_of_end);
-    for (uint32_t j = 0; j < k_probes_of_end; ++j) {
+    for (uint32_t j = 0; apart && j < k_probes_of_end; ++j) {
       const uint32_t w = loops.start[b] + static_cast<uint32_t>(uint64_t{j} * m / k_probes_of_end);
       const Vec3 before = loops.position[w] - loops.position[v];
       const double now = length(before + move);
-      apart = apart && (now > least || now > k_as_far * length(before));
+      apart = now > least || now > k_as_far * length(before);
     }
   }
   return apart;
@@ -85,8 +85,8 @@ static Status find_part(Context& context, const Loops& loops, Span<const BranchE
       double clear = 0.0;
       while (clear < *part && are_apart(loops, ends, a, b, clear + k_step)) clear += k_step;
       *part = smaller(*part, clear);
+      TRY(context.checkpoint());
     }
-    TRY(context.checkpoint());
   }
   return {};
 }
@@ -142,7 +142,10 @@ Status mesh_branches(Context& context, const Loops& loops, double spacing, LoopM
   TRY(find_part(context, loops, ends.span(), &part));
   if (part == 0.0) return mesh_loops(context, loops, spacing, mesh);
   TRY(move_ends(loops, ends.span(), part, &moved));
-  TRY(mesh_loops(context, {loops.start, moved.span(), loops.normal}, spacing, &core));
+  const Status status =
+      mesh_loops(context, {loops.start, moved.span(), loops.normal}, spacing, &core);
+  if (status.code == Code::patch_folded) return mesh_loops(context, loops, spacing, mesh);
+  TRY(status);
   TRY(add_tubes(loops, ends.span(), moved.span(), &core, &made));
   mesh->inner = static_cast<Array<Vec3>&&>(made.inner);
   mesh->triangle = static_cast<Array<uint32_t>&&>(made.triangle);

@@ -392,18 +392,16 @@ static bool has_sound_area(const Loops& loops, Span<const Vec3> point,
 }
 
 static Status take_unrefined(const Loops& loops, const LoopMesh& coarse, Array<Vec3>* point,
-                             Array<uint32_t>* triangle, bool* sound) {
+                             Array<uint32_t>* triangle) {
   TRY(point->copy(loops.position));
   for (const Vec3& p : coarse.inner) TRY(point->push(p));
-  TRY(triangle->copy(coarse.triangle.span()));
-  *sound = has_sound_area(loops, point->span(), triangle->span());
-  return {};
+  return triangle->copy(coarse.triangle.span());
 }
 
 // Refines a copy of the triangulation; `*sound`: whether it has area, and no needle.
 static Status refine_copy(const Loops& loops, double spacing, const LoopMesh& coarse,
                           Array<Vec3>* point, Array<uint32_t>* triangle, bool* sound) {
-  TRY(take_unrefined(loops, coarse, point, triangle, sound));
+  TRY(take_unrefined(loops, coarse, point, triangle));
   TRY(refine_loops(point->context(), spacing, loops.start, point, triangle));
   *sound = has_sound_area(loops, point->span(), triangle->span());
   return {};
@@ -425,7 +423,10 @@ Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh
     TRY(refine_copy(loops, spacing * (1 << k), coarse, &point, &triangle, &sound));
   }
   coarser = coarser || !sound;
-  if (!sound) TRY(take_unrefined(loops, coarse, &point, &triangle, &sound));
+  if (!sound) {
+    TRY(take_unrefined(loops, coarse, &point, &triangle));
+    sound = has_sound_area(loops, point.span(), triangle.span());
+  }
   if (!sound) return fail(Code::patch_folded, "the border of the patch encloses no area");
   const size_t n = loops.position.size();
   TRY(mesh->inner.copy(point.span().part(n, point.size() - n)));

@@ -1,18 +1,15 @@
-// A triangle mesh of little area within closed loops in space: what a patch starts from where its
-// border has no plane to be projected to.
+// A triangle mesh of little area within closed loops in space, where the border has no plane.
 //
-// In: the loops' positions (finite, scaled so that the extent is about one) and unit normals, the
-// patch on their left seen from the normals' tips; the wished spacing. Out: inner points and
-// triangles over the loops' vertices (0 .. n - 1) and the inner ones (from n). Invariants: a disc,
-// or with several loops a sphere with that many holes, whose border the loops are in their
-// direction; no vertex is added on it. *mesh is written on success only. First a triangulation of
-// the loops' vertices alone by dynamic programming, least in the sum of area * (1 + k (1 - cos))
-// with the angle between a triangle and the mean of its normals, k 2 or for several loops 8;
-// several loops become one by bridges, the shortest along which their conormals lead. Then
+// In: the loops' positions (finite, extent about one) and unit normals, the patch on their left
+// seen from the normals' tips; the wished spacing. Out: inner points and triangles over the loops'
+// vertices (0 .. n - 1) and the inner ones (from n): a sphere with a hole for each loop, bordered
+// by the loops in their direction. *mesh is written on success only. First the loops' vertices
+// alone by dynamic programming, least in the sum of area * (1 + k (1 - cos)) with the angle between
+// a triangle and the mean of its normals, k 2 or for several loops 8, which bridges make one; then
 // mesh/loop_refine.h, at 2, 4 and 8 times the spacing where that leaves a needle, and not at all
-// where these do. At most k_most_kept vertices or so take part in the first, so its cost is
-// bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the
-// Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003.
+// where these do. O(n log n + inner points): k_most_kept vertices or so take part in the first.
+// Sources: G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995; P. Liepa,
+// "Filling Holes in Meshes", 2003.
 #pragma once
 
 #include "base/array.h"

@@ -102,16 +102,22 @@ static bool are_seen_to_cross(const SeenEdge& a, const SeenEdge& b) {
 
 static Status count_crossings(Span<const LinkedEdge> edges, Span<const SeenEdge> seen,
                               Context* context, int32_t* sum) {
+  constexpr size_t k_pairs_between = size_t{1} << 18;  // some milliseconds
+  size_t pairs = 0;
   *sum = 0;
   for (size_t i = 0; i < seen.size(); ++i) {
+    ++pairs;
     for (size_t k = i + 1; k < seen.size() && seen[k].low <= seen[i].high; ++k) {
+      ++pairs;
       const LinkedEdge &e = edges[seen[i].edge], &f = edges[seen[k].edge];
       if (e.next == seen[k].edge || f.next == seen[i].edge) continue;
       if (!are_seen_to_cross(seen[i], seen[k])) continue;
       const double side = dot(cross(f.to - f.from, e.to - e.from), f.from - e.from);
       *sum += side > 0.0 ? 1 : side < 0.0 ? -1 : 0;
     }
-    if (i % 64 == 63) TRY(context->checkpoint());
+    if (pairs < k_pairs_between) continue;
+    TRY(context->checkpoint());
+    pairs = 0;
   }
   return {};
 }

@@ -5,8 +5,8 @@
 // any direction, and the turns that the normals make about their curves against that direction. The
 // border of a Moebius band has another number, and so has a knot with normals that stay on one
 // side. In: a border. Out: the number, 0 where it is not defined (normals not known, curves that
-// turn back). Cost: O(n log n) and the pairs of edges whose extents meet along an axis; no more
-// than some nanoseconds for each of these, so that 2^16 edges take a few seconds at the worst.
+// turn back). Cost: O(n log n) and the pairs of edges whose extents meet along an axis, which are
+// n^2 / 2 at the worst: then 2^16 edges take seconds.
 // Sources: G. Calugareanu, "L'integrale de Gauss et l'analyse des noeuds tridimensionnels", 1959;
 // J. H. White, "Self-Linking and the Gauss Integral in Higher Dimensions", 1969; L. H. Kauffman,
 // "On Knots", 1987, for the blackboard framing.

@@ -15,15 +15,16 @@ static bool bounds_others(const Network& network, Span<const uint32_t> patch_of,
   return true;
 }
 
-static Status name_leading_out(const Network& network, uint32_t p) {
-  Place place;
-  place.curve = network.segment[network.inner[p][0]].curve;
-  return fail(Code::open_network,
-              "this curve leads away from a border, out to where there is no surface", place);
+static Status name_leading_out(const curves::Curves& fitted, const Network& network, uint32_t p) {
+  const Segment& segment = network.segment[network.inner[p][0]];
+  return fail_at_sample(Code::open_network,
+                        "this curve leads away from a border, out to where there is no surface",
+                        segment.curve, fitted[segment.curve].sample[segment.first_knot]);
 }
 
-Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network* network,
-                     Array<Status>* faults, Array<uint32_t>* original) {
+Status drop_outsides(const curves::Curves& fitted, const CurveVertices& vertices,
+                     Array<Node>* nodes, Network* network, Array<Status>* faults,
+                     Array<uint32_t>* original) {
   Context& context = nodes->context();
   Array<uint32_t> patch_of(context);  // of each half-segment
   Array<Status> status(context);
@@ -39,7 +40,7 @@ Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network*
     if (!bounds_others(*network, patch_of.span(), status.span(), p)) continue;
     TRY(border_of_patch(*network, vertices, p, &border));
     if (!runs_clockwise(border)) continue;
-    if (!network->inner[p].empty() && faults->empty()) return name_leading_out(*network, p);
+    if (!network->inner[p].empty() && faults->empty()) return name_leading_out(fitted, *network, p);
     if (!network->inner[p].empty() || !network->point[p].empty()) continue;
     status[p] = fail(Code::patch_without_plane, "outside");
     ++outsides;

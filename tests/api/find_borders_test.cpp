@@ -112,6 +112,7 @@ TEST_CASE("found borders: a curve that only the outside holds is not lost withou
   const Built b(scene, true);
   CHECK(b.report.status == WSK_ERROR_OPEN_NETWORK);
   CHECK(b.report.curve == own);
+  CHECK(b.report.sample == 0);
   CHECK(std::string(b.report.sentence) ==
         "this curve leads away from a border, out to where there is no surface");
   CHECK(b.report.found_borders == 0);
@@ -121,6 +122,7 @@ TEST_CASE("found borders: a curve that only the outside holds is not lost withou
   const Built t(tagged, false);
   CHECK(t.report.status == WSK_ERROR_OPEN_NETWORK);
   CHECK(t.report.curve == own);
+  CHECK(t.report.sample == 0);
   CHECK(std::string(t.report.sentence) ==
         "this curve leads away from a border, out to where there is no surface");
 }

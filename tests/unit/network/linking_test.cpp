@@ -172,7 +172,7 @@ TEST_CASE("the number is that of the border and its copy pushed along the normal
   CHECK(others > 30);
 }
 
-TEST_CASE("a border of many edges takes no time that counts") {
+TEST_CASE("a border of many edges: few pairs where it is wide, checkpoints where all meet") {
   constexpr uint32_t n = 1u << 15;
   Ribbon band;
   for (int end : {1, -1}) {
@@ -182,10 +182,24 @@ TEST_CASE("a border of many edges takes no time that counts") {
     });
   }
   CHECK(band.number() == 0);
+  CHECK(band.heap.checkpoints <= 4);  // each counted 2^18 pairs; all would be 2^31
   Ribbon turning;
   turning.add(n, [](double t) {
     const Vec3 out = {std::cos(t), std::sin(t), 0};
     return std::make_pair(out, std::cos(3 * t) * out + std::sin(3 * t) * Vec3{0, 0, 1});
   });
   CHECK(std::abs(turning.number()) == 3);
+  CHECK(turning.heap.checkpoints <= 4);
+  Ribbon stack;  // of squares: in every view most edges meet most others along its axis
+  constexpr uint32_t k_squares = 1000;
+  for (uint32_t k = 0; k < k_squares; ++k) {
+    stack.add(4, [=](double t) {
+      const Vec3 p = {std::cos(t), std::sin(t), 1e-4 * k};
+      return std::make_pair(p, Vec3{0, 0, 1});
+    });
+  }
+  CHECK(stack.number() == 0);
+  const size_t all = 4 * k_squares * (4 * k_squares - 1) / 2;
+  CHECK(stack.heap.checkpoints >= all / (1u << 20));
+  CHECK(stack.heap.checkpoints <= all / (1u << 18));
 }
