@@ -133,7 +133,8 @@ enum {
   /* Samples of the same node lie farther apart than 1e-9 of the diagonal of the bounding box. */
   WSK_ERROR_NODE_MISMATCH = 15,
   /* A curve or a point bounds no patch and lies inside none; a boundary curve has the surface on
-     both sides, or nothing tells on which. */
+     both sides, or nothing tells on which; a curve leads away from a border, out to where there is
+     no surface. */
   WSK_ERROR_OPEN_NETWORK = 16,
   /* Normals turn by more than 120 degrees between neighbouring samples, point to different sides of
      the surface there or at a node, or leave the order of the curves round a node undecided. If
@@ -263,7 +264,8 @@ typedef struct wsk_options {
   /* The most memory the call may hold at any time, result included; 0: no cap. */
   size_t memory_cap;
 
-  /* Asked often; non-zero ends the call with WSK_ERROR_CANCELLED. */
+  /* Asked after about every 10 ms of work, beyond some hundred thousand vertices after a few dozen;
+     non-zero ends the call with WSK_ERROR_CANCELLED. */
   int32_t (*cancel)(void* user);
   void* cancel_user;
   /* Told the stage and how much of it is done (0 to 1). */
@@ -292,7 +294,8 @@ typedef struct wsk_options {
      of its squared perimeter and lies more than 123 degrees from the mean of its normals) the
      surface ends instead; wsk_report.found_borders counts such places. The ends of tubes and domes,
      whose normals stand across their vector area, do not tell and must still be tagged, and so must
-     holes, which would be closed. Zero (the default): such a patch is an error. */
+     holes, which would be closed. A curve that leads away from such a border is an error
+     (WSK_ERROR_OPEN_NETWORK). Zero (the default): such a patch is an error. */
   int32_t find_borders;
 } wsk_options;
 
@@ -369,8 +372,8 @@ typedef struct wsk_report {
   double total_ms;
   wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
   uint32_t failed_patches; /* left out because of wsk_options.partial */
-  /* Patches of several loops that might as well have been joined otherwise, or closed each alone:
-     the other choice had less than a tenth more area, or the evidence of their normals for this one
+  /* Patches, of several loops or of one, that might as well have been joined otherwise, or closed
+     each alone: the other choice had less than a tenth more area, or the evidence of their normals for this one
      was next to none. WSK_NONE where there is no first one. */
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
@@ -454,6 +457,9 @@ typedef struct wsk_curve {
  * lies inside a patch, seen in its plane, becomes part of it (a boundary loop is a hole in it,
  * another closed curve bounds two patches, dangling curves and points hold the surface), and loops
  * that face each other along the surface bound a band, if that takes less area than closing both.
+ * Closed curves apart from all others are joined in pairs so that the area is least over all. A
+ * closed curve with surface on both sides that lies inside another one, in its plane, is left to
+ * these pairs and not taken into the patch of the plane.
  * Where a patch's border is seen without folds from the mean of its normals (for ITERATED and FAIR:
  * and not too steeply, the mean cosine between them being at least 1/4) it is triangulated in that
  * plane, else by a triangulation of least area in space (G. Barequet, M. Sharir, "Filling Gaps in
@@ -531,9 +537,10 @@ typedef struct wsk_surface_view {
   const uint32_t* patch_curves;      /* patch_curves[patch_curve_start[p]] and so on, ascending */
 
   /* Corners whose vertex has several sides, of which `normals` holds the mean: at sharp curves; and
-     in surfaces from curves alone, without normals that shaped them, at edges of curves where the
-     surface turns by more than 20 degrees or more than two patches meet. Corner k of triangle t is
-     3 t + k; ascending. Null, and none, where there is no crease. */
+     in surfaces from curves alone, unless normals shaped them, at edges between vertices on curves
+     where the surface turns by more than 20 degrees, at edges at which other than two triangles of
+     one orientation meet, and where sheets touch in a point. Corner k of triangle t is 3 t + k;
+     ascending. Null, and none, where there is no crease. */
   const uint32_t* crease_corners;
   const double* crease_normals; /* 3 a corner: the unit normal of its own side */
   uint32_t crease_corner_count;
@@ -3393,10 +3400,13 @@ struct FlatFaces {
   uint32_t size() const { return static_cast<uint32_t>(normal.size()); }
 };
 
+/* Of lines and samples looked at; who draws faces as dense as that gets none. */
+inline constexpr size_t k_most_face_work = size_t{1} << 26;
+
 /* `noise`: the standard deviation of the samples that was taken out, as corners have theirs still. */
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, double noise,
-                       FlatFaces* faces);
+                       FlatFaces* faces, size_t most_work = k_most_face_work);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_faces.h ======== */
@@ -3481,10 +3491,10 @@ namespace wireskin::flow {
 /* as open as its balls make it; all; none. */
 enum class Lids : uint8_t { single, all, none };
 
-/* `open_lids`: the faces that are lids but were not to stay. */
+/* `lids`: the faces that are lids, whether they were to stay or not. */
 Status find_lids(Context& context, const Complex& complex, const Samples& samples,
                  const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
-                 Array<uint32_t>* open_lids);
+                 Array<uint32_t>* lids);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_lids.h ======== */
@@ -3553,7 +3563,7 @@ struct FlatCells {
   Array<Pass> turn;  /* of each triangle; empty where there are no faces */
   Array<Need> need;  /* of each edge of the curves, and of each chord */
   bool any_settled = false;
-  /* Lids that are left to the radii: of each the triangles in its middle, in all layers. */
+  /* Lids: of each the triangles in its middle, in all layers. */
   Array<uint32_t> lid_start, lid_middle;
   bool given_up = false;  /* on the faces */
 
@@ -5225,6 +5235,7 @@ struct CurvesAcross {
   Array<uint32_t> curved;            /* samples of arcs that bend */
   Array<uint32_t> next_start, next;  /* of each vertex: those that segments join it to */
   Array<Crossed> crossed;            /* of each triangle */
+  Array<uint32_t> judged;            /* those judged in the plane looked at */
   size_t work = 0;                   /* how much was looked at */
 
   explicit CurvesAcross(Context& context)
@@ -5235,7 +5246,13 @@ struct CurvesAcross {
         curved(context),
         next_start(context),
         next(context),
-        crossed(context) {}
+        crossed(context),
+        judged(context) {}
+  /* As planes follow what is in them: those judged in a plane left behind are unknown again. */
+  void forget_judged() {
+    for (const uint32_t t : judged) crossed[t] = Crossed::unknown;
+    judged.clear();
+  }
 };
 
 inline bool near_plane(const FacePlane& plane, const Vec3& p) {
@@ -5259,8 +5276,8 @@ bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePl
 /* each face's state and the cells on its sides. A curve is where two faces make a crease: a third */
 /* face at it is one too many, and two in one plane leave nothing to draw a curve for. Cells are */
 /* merged, the outside among them, the best merger first, as long as that makes the curves' faults */
-/* fewer: three or more faces count as their length, two that are flat as half as much again, none */
-/* at all is not allowed. In passes over all faces left, each with all mergers that do not touch */
+/* fewer: three or more faces count as their length, two that are flat as half as much again, fewer */
+/* than two are not allowed. In passes over all faces left, each with all mergers that do not touch */
 /* each other: few, but for faces round one curve, of which each may take a pass. Source: G. */
 /* Markowsky, M. A. Wesley, "Fleshing Out Wire Frames", 1980, for cells; the weights are our own. */
 
@@ -5639,21 +5656,18 @@ Status refine_patch(Context& context, double spacing, bool relax, Span<const uin
 /* ======== end src/mesh/loop_refine.h ======== */
 
 /* ======== begin src/mesh/loop_mesh.h ======== */
-/* A triangle mesh of little area within closed loops in space: what a patch starts from where its */
-/* border has no plane to be projected to. */
+/* A triangle mesh of little area within closed loops in space, where the border has no plane. */
 /* */
-/* In: the loops' positions (finite, scaled so that the extent is about one) and unit normals, the */
-/* patch on their left seen from the normals' tips; the wished spacing. Out: inner points and */
-/* triangles over the loops' vertices (0 .. n - 1) and the inner ones (from n). Invariants: a disc, */
-/* or with several loops a sphere with that many holes, whose border the loops are in their */
-/* direction; no vertex is added on it. *mesh is written on success only. First a triangulation of */
-/* the loops' vertices alone by dynamic programming, least in the sum of area * (1 + k (1 - cos)) */
-/* with the angle between a triangle and the mean of its normals, k 2 or for several loops 8; */
-/* several loops become one by bridges, the shortest along which their conormals lead. Then */
+/* In: the loops' positions (finite, extent about one) and unit normals, the patch on their left */
+/* seen from the normals' tips; the wished spacing. Out: inner points and triangles over the loops' */
+/* vertices (0 .. n - 1) and the inner ones (from n): a sphere with a hole for each loop, bordered */
+/* by the loops in their direction. *mesh is written on success only. First the loops' vertices */
+/* alone by dynamic programming, least in the sum of area * (1 + k (1 - cos)) with the angle between */
+/* a triangle and the mean of its normals, k 2 or for several loops 8, which bridges make one; then */
 /* mesh/loop_refine.h, at 2, 4 and 8 times the spacing where that leaves a needle, and not at all */
-/* where these do. At most k_most_kept vertices or so take part in the first, so its cost is */
-/* bounded: O(n log n + inner points) in all. Sources: G. Barequet, M. Sharir, "Filling Gaps in the */
-/* Boundary of a Polyhedron", 1995; P. Liepa, "Filling Holes in Meshes", 2003. */
+/* where these do. O(n log n + inner points): k_most_kept vertices or so take part in the first. */
+/* Sources: G. Barequet, M. Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995; P. Liepa, */
+/* "Filling Holes in Meshes", 2003. */
 
 namespace wireskin::mesh {
 
@@ -5716,7 +5730,8 @@ Status mesh_band(Context& context, const Loops& loops, double spacing, LoopMesh*
 /* first moved along their mean, all by the same part of the way to the middle of the others, as far */
 /* as they keep a distance of about their radius; straight tubes lead there, and only what is left */
 /* between their ends is taken with little area. Loops whose conormals do not agree stay where they */
-/* are. Cost: that of mesh_loops(), and k_probes^2 distances for each pair of loops. */
+/* are, and all do where what is left between the ends cannot be meshed. Cost: that of mesh_loops(), */
+/* twice then, and for each pair of loops 2^10 distances at each of up to 18 steps. */
 
 namespace wireskin::mesh {
 
@@ -6549,8 +6564,8 @@ Status check_border(const Border& border);
 /* any direction, and the turns that the normals make about their curves against that direction. The */
 /* border of a Moebius band has another number, and so has a knot with normals that stay on one */
 /* side. In: a border. Out: the number, 0 where it is not defined (normals not known, curves that */
-/* turn back). Cost: O(n log n) and the pairs of edges whose extents meet along an axis; no more */
-/* than some nanoseconds for each of these, so that 2^16 edges take a few seconds at the worst. */
+/* turn back). Cost: O(n log n) and the pairs of edges whose extents meet along an axis, which are */
+/* n^2 / 2 at the worst: then 2^16 edges take seconds. */
 /* Sources: G. Calugareanu, "L'integrale de Gauss et l'analyse des noeuds tridimensionnels", 1959; */
 /* J. H. White, "Self-Linking and the Gauss Integral in Higher Dimensions", 1969; L. H. Kauffman, */
 /* "On Knots", 1987, for the blackboard framing. */
@@ -6961,7 +6976,7 @@ Status join_guests(Grouping* g, Span<const uint8_t> settled);
 /* the areas are small in sum (network/ring_pairs.h), and sides left alone that see both loops of a */
 /* pair well joined to it. Both are settled: neither rule 3 nor rule 4 joins them again. Rings near */
 /* other curves, and rings near such ones, are left to these rules. O(n^2) in the distances of */
-/* loops, where there are rings at all, and about O(n) bands. */
+/* loops where there are rings at all; so many bands as network/ring_bands.h looks at. */
 
 namespace wireskin::network {
 
@@ -6974,15 +6989,14 @@ Status join_rings(Grouping* g);
 /* Loops that see each other bound a patch together: the ends of tubes, a hole and what is round it, */
 /* limbs that leave a body; also where other curves connect them. */
 /* */
-/* In: what rule 1 of network/group.h has joined. Out: more groups joined. A disc inside a loop that */
-/* hardly turns has a curvature of pi and more: such a loop asks every place what it sees */
-/* (network/sight.h). A group of loops is joined to what it sees best, as long as the evidence */
-/* lasts: the mean cosine at which it is seen, how little way that is against the spherical cap over */
-/* the loop (area over length; 2 A / (1 + m) for a circle of area A and mean cosine m between */
-/* normals and axis, times (2 / (1 + m))^2), the loop's own curvature, and the curvature that the */
-/* joint patch is spared (by Gauss and Bonnet 4 pi less than the two alone). The weights are those */
-/* of a logistic regression over the loops of random cuts of four meshes. O(n log^2 n) and a few */
-/* rounds. */
+/* In: what rules 1 and 2 of network/group.h have joined. Out: more groups joined, none that rule 2 */
+/* has settled. A disc inside a loop that hardly turns has a curvature of pi and more: such a loop */
+/* asks every place what it sees (network/sight.h). Groups are joined to what they see best while */
+/* the evidence lasts: the mean cosine at which it is seen, how little way that is against the cap */
+/* over the loop (area over length; 2 A / (1 + m) for a circle of area A and mean cosine m between */
+/* normals and axis, times (2 / (1 + m))^2), the loop's curvature, and the one that the joint patch */
+/* is spared (by Gauss and Bonnet 4 pi less than the two alone). The weights are of a logistic */
+/* regression over the loops of random cuts of four meshes. O(n log^2 n) and a few rounds. */
 
 namespace wireskin::network {
 
@@ -7140,12 +7154,13 @@ uint32_t nearest_patch(const CurveVertices& vertices, const Piece& piece,
 /* ======== begin src/network/ring_bands.h ======== */
 /* The sides of closed curves with places round them, and how much area a band between two takes. */
 /* */
-/* In: borders of patches. Out: sides, and for each the few others between which a band is least. A */
-/* band is taken place by place round both sides, the second against the first and shifted for the */
-/* least sum; a way from place to place counts as chord 8 / ((1 + cos a) (1 + cos b) (1 + cos t)) */
-/* for its turns a and b and its twist t. The lid over a circle of area A is 2 A / (1 + m) times */
-/* (2 / (1 + m))^2 for the mean cosine m between normals and axis: so rims that bend back, walls */
-/* and lids compare by one measure. O(1) for a band, whatever the loops. */
+/* In: borders of patches. Out: sides, and for each the few others between which a band is least, of */
+/* the nearest ones. A band is taken place by place round both sides, the second against the first */
+/* and shifted for the least sum; a way from place to place counts as chord 8 / ((1 + cos a) (1 + */
+/* cos b) (1 + cos t)) for its turns a and b and its twist t. The lid over a circle of area A is 2 A */
+/* / (1 + m) times (2 / (1 + m))^2 for the mean cosine m between normals and axis: so rims that bend */
+/* back, walls and lids compare by one measure. O(1) for a band, whatever the loops; for the lists */
+/* O(n^2) in the distances of sides, and O(n) bands where few are the least for many. */
 
 namespace wireskin::network {
 
@@ -7202,16 +7217,17 @@ Status list_ring_bands(RingBands* bands);
 /* Which sides of closed curves are best joined in pairs by bands, and which are closed alone. */
 /* */
 /* In: sides (network/ring_bands.h). Out: of each side its partner or k_none, and whether another */
-/* choice has hardly more area. Bands whose sides see each other come first, the least cost first; */
-/* then partners are exchanged as long as that saves something: one more band is chosen, then the */
-/* best ones for the sides that it leaves over, a few deep. What is left over after that may bend */
-/* back to another side, as a rim does; there a side that looks across itself rather has a lid. Of a */
-/* ring of boundary curves one side has a partner at most. Cost: O(n^2) in the distances of sides, */
-/* about O(n) bands. Source: S. Lin, B. Kernighan, "An Effective Heuristic Algorithm for the */
-/* Traveling-Salesman Problem", 1973, for the exchanges. */
+/* choice has hardly more area; the bands are listed. Bands whose sides see each other come first, */
+/* the least cost first; then partners are exchanged as long as that saves something: one more band */
+/* is chosen, then the best ones for the sides that it leaves over, a few deep. What is left over */
+/* may bend back to another side, as a rim does; there a side that looks across itself rather has a */
+/* lid: its `alone` is lessened. Of a ring of boundary curves one side has a partner at most. Cost: */
+/* that of the lists in network/ring_bands.h, and O(1) exchanges for each band. Source: S. Lin, B. */
+/* Kernighan, "An Effective Heuristic Algorithm for the Traveling-Salesman Problem", 1973. */
 
 namespace wireskin::network {
 
+/* Lists bands->band and changes RingSide::alone. */
 Status pair_sides(RingBands* bands, Array<uint32_t>* partner, Array<uint8_t>* doubtful);
 
 }  /* namespace wireskin::network */
@@ -7356,19 +7372,20 @@ Status complete_node_normals(const curves::Curves& curves, Span<Node> nodes);
 /* The cycles round the outside of an open surface whose border no one tagged: taken for patches, */
 /* they run clockwise round their own normals. */
 /* */
-/* In: nodes, network and vertices of its curves. Out: nodes and network without such patches, the */
+/* In: fitted curves, nodes, network and vertices. Out: nodes and network without such patches, the */
 /* curves there being boundary. A patch without which a curve would bound nothing is kept, and so is */
 /* one that holds points: they fail later, with their place. One that holds curves fails here with */
-/* open_network and names the first of them, but where faults are collected it fails later. Which side of a closed */
-/* curve has the surface cannot be told for tubes and domes, whose normals stand across the vector */
-/* area of their ends: those have to be tagged. O(border). */
+/* open_network and names the first of them, but where faults are collected it fails later. Which */
+/* side of a closed curve has the surface cannot be told for tubes and domes, whose normals stand */
+/* across the vector area of their ends: those have to be tagged. O(border). */
 
 namespace wireskin::network {
 
 /* `original`: of each patch that is left, its number before; empty where all are left. `faults`: of */
 /* each segment, as from find_patches; cut down with the segments; may be empty. */
-Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network* network,
-                     Array<Status>* faults, Array<uint32_t>* original);
+Status drop_outsides(const curves::Curves& fitted, const CurveVertices& vertices,
+                     Array<Node>* nodes, Network* network, Array<Status>* faults,
+                     Array<uint32_t>* original);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/outsides.h ======== */
@@ -9403,6 +9420,7 @@ Status find_crease_normals(Context& context, Span<const Vec3> positions,
     if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
     const Vec3 here = face_normal(positions, triangles, h);
     const Vec3 there = face_normal(positions, triangles, twin);
+    if (here == Vec3{} || there == Vec3{}) continue;  /* a triangle without area turns nowhere */
     crease[h] = crease[twin] = dot(here, there) < k_crease_cosine;
   }
   TRY(cut_open(vertices, triangles, twins.span(), crease.span(), &cut));
@@ -12629,7 +12647,7 @@ static Status find_borders(const curves::Curves& fitted, Array<network::Node>* n
                            Array<Status>* faults, Counts* counts) {
   Context& context = nodes->context();
   Array<uint32_t> original(context);
-  TRY(network::drop_outsides(*vertices, nodes, network, faults, &original));
+  TRY(network::drop_outsides(fitted, *vertices, nodes, network, faults, &original));
   if (original.empty()) return {};
   counts->found_borders = counts->patches - network->patches();
   counts->patches = network->patches();
@@ -14382,11 +14400,8 @@ Status find_straight_lines(const Complex& complex, const Samples& samples, Strai
       lines->line[lines->start[complex.same_as[samples.at[i]]]++] = lines->line_of[a];
     }
   }
-  for (size_t i = lines->start.size() - 1; i > 0; --i) lines->start[i] = lines->start[i - 1];
-  for (size_t i = lines->arc_start.size() - 1; i > 0; --i) {
-    lines->arc_start[i] = lines->arc_start[i - 1];
-  }
-  lines->start[0] = lines->arc_start[0] = 0;
+  shift_starts_back(lines->start.span());
+  shift_starts_back(lines->arc_start.span());
   return {};
 }
 
@@ -14402,14 +14417,14 @@ static constexpr double k_noise_off_plane = 3.0;  /* times its standard deviatio
 static constexpr double k_most_noise = 10.0;      /* times what is flat without noise */
 static constexpr double k_exact = 0.02;  /* of what counts as flat: planes are no matter of choice */
 static constexpr uint8_t k_most_visits = 4;
-/* Of lines and samples looked at; who draws faces as dense as that gets none. */
-static constexpr size_t k_most_work = size_t{1} << 26;
-static constexpr size_t k_flood_per_checkpoint = size_t{1} << 17;
+static constexpr size_t k_flood_per_checkpoint = size_t{1} << 16;
+static constexpr uint32_t k_triangles_per_pause = 1u << 16;
 
 namespace {
 
 struct FaceFlood {
   CurvesAcross across;
+  size_t most_work;
   size_t work = 0, next_checkpoint = k_flood_per_checkpoint;
   Array<uint32_t> mark;               /* of each triangle: the seed whose face it was last in */
   Array<uint8_t> visits;              /* of each triangle */
@@ -14420,8 +14435,9 @@ struct FaceFlood {
   Array<uint32_t> rim_of;             /* of each arc: the seed of the face that has it last */
   Array<uint32_t> seen, border_edge;  /* of each vertex: its edges on the border, and one of them */
 
-  explicit FaceFlood(Context& context)
+  FaceFlood(Context& context, size_t most)
       : across(context),
+        most_work(most),
         mark(context),
         visits(context),
         member(context),
@@ -14432,9 +14448,10 @@ struct FaceFlood {
         seen(context),
         border_edge(context) {}
   size_t all_work() const { return work + across.work; }
+  bool too_much() const { return all_work() > most_work; }
   Status pause() {
-    if (work <= next_checkpoint) return {};
-    next_checkpoint = work + k_flood_per_checkpoint;
+    if (all_work() <= next_checkpoint) return {};
+    next_checkpoint = all_work() + k_flood_per_checkpoint;
     return mark.context().checkpoint();
   }
 };
@@ -14527,8 +14544,7 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     return flood->member.push(t);
   };
   TRY(add(seed));
-  for (size_t i = 0; i < flood->member.size() && flood->all_work() <= k_most_work; ++i) {
-    TRY(flood->pause());
+  for (size_t i = 0; i < flood->member.size() && !flood->too_much(); ++i) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
       ++flood->work;
@@ -14538,6 +14554,7 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
         if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
         if (is_line(complex, curves, lines, t)) continue;
         if (!is_crossed(complex, lines, plane, seed, t, &flood->across)) TRY(add(t));
+        TRY(flood->pause());
       }
     }
   }
@@ -14574,12 +14591,12 @@ static Status flood_plane(const Complex& complex, const CurveEdges& curves,
     double off = 0.0;
     const FacePlane next = plane_of_members(complex, *flood, *plane, &off);
     if (off <= k_exact * plane->flat || i + 1 == k_most_planes) break;
-    if (flood->all_work() > k_most_work || !in_plane(complex, next, seed)) break;
+    if (flood->too_much() || !in_plane(complex, next, seed)) break;
     for (const uint32_t t : flood->member) {
       flood->mark[t] = k_none;
       --flood->visits[t];
-      flood->across.crossed[t] = Crossed::unknown;
     }
+    flood->across.forget_judged();
     flood->across.plane_line_of = k_none;
     *plane = next;
   }
@@ -14757,6 +14774,7 @@ static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, FacePl
 static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
                          const StraightLines& lines, double flat, Array<double>* area,
                          Array<uint32_t>* seeds) {
+  size_t looked_at = 0;
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     FacePlane plane;
@@ -14765,6 +14783,7 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
+        if (++looked_at % k_triangles_per_pause == 0) TRY(area->context().checkpoint());
         if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
         if (!straight && !in_plane(complex, plane, t)) continue;
         (*area)[t] = length(cross_of_triangle(complex, t));
@@ -14805,20 +14824,23 @@ static Status forget_faces(FlatFaces* faces) {
 
 Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
                        const CurveEdges& curves, const StraightLines& lines, double noise,
-                       FlatFaces* faces) {
+                       FlatFaces* faces, size_t most_work) {
   const double flat = k_flat * complex.diagonal;
   faces->flat = larger(flat, smaller(k_noise_off_plane * noise, k_most_noise * flat));
-  FaceFlood flood(context);
+  FaceFlood flood(context, most_work);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
   TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
+    TRY(flood.pause());
+    if (flood.too_much()) return forget_faces(faces);
     if (flood.visits[seed] != 0) continue;
+    flood.across.judged.clear();
     FacePlane plane = plane_of(complex, seed, faces->flat);
     if (is_crossed(complex, lines, plane, seed, seed, &flood.across)) continue;
     TRY(flood_plane(complex, curves, lines, *faces, seed, &plane, &flood));
-    if (flood.all_work() > k_most_work) return forget_faces(faces);
+    if (flood.too_much()) return forget_faces(faces);
     TRY(close_face(complex, curves, lines, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
     TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
@@ -14826,6 +14848,7 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
   }
   if (faces->size() == 0) return {};
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (t % k_triangles_per_pause == 0) TRY(context.checkpoint());
     if (is_line(complex, curves, lines, t)) faces->part[t] = FlatPart::line;
   }
   return {};
@@ -14852,8 +14875,7 @@ Status link_rims(const FlatFaces& faces, uint32_t arcs, FaceRims* rims) {
   for (uint32_t i = 0; i < faces.rim.size(); ++i) {
     rims->rim[rims->start[faces.rim[i].arc]++] = i;
   }
-  for (size_t a = arcs; a > 0; --a) rims->start[a] = rims->start[a - 1];
-  rims->start[0] = 0;
+  shift_starts_back(rims->start.span());
   return {};
 }
 
@@ -14923,8 +14945,7 @@ static Status link_ends(const Complex& complex, const Samples& samples, ArcEnds*
   for (uint32_t i = 0; i < count; ++i) {
     ends->end[ends->start[vertex_of_end(complex, samples, i)]++] = i;
   }
-  for (size_t v = ends->start.size() - 1; v > 0; --v) ends->start[v] = ends->start[v - 1];
-  ends->start[0] = 0;
+  shift_starts_back(ends->start.span());
   return {};
 }
 
@@ -15084,7 +15105,7 @@ struct Discs {
 
 /* Sections of what has a lid are in the way of its void: they are open. */
 static Status keep_lids(Context& context, const LidSearch& search, const Discs& discs, Lids which,
-                        Array<uint32_t>* open_lids) {
+                        Array<uint32_t>* lids) {
   const FlatFaces& faces = *search.faces;
   const uint32_t arcs = search.rims->arc_count();
   Array<uint32_t> net(context), count(context);
@@ -15097,7 +15118,7 @@ static Status keep_lids(Context& context, const LidSearch& search, const Discs& 
   for (const uint32_t f : discs.lid) ++count[net_of(f)];
   for (const uint32_t f : discs.lid) {
     if (stay(net_of(f))) search.rims->state[f] = FaceState::dangling;
-    if (!stay(net_of(f))) TRY(open_lids->push(f));
+    TRY(lids->push(f));
   }
   for (const uint32_t f : discs.section) {
     if (stay(net_of(f))) search.rims->state[f] = FaceState::hole;
@@ -15137,8 +15158,8 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
 
 Status find_lids(Context& context, const Complex& complex, const Samples& samples,
                  const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
-                 Array<uint32_t>* open_lids) {
-  constexpr size_t k_work_per_checkpoint = 1u << 17;
+                 Array<uint32_t>* lids) {
+  constexpr size_t k_work_per_checkpoint = 1u << 16;
   LidSearch search(context);
   Discs discs(context);
   Array<uint8_t> is_disc(context);
@@ -15174,7 +15195,7 @@ Status find_lids(Context& context, const Complex& complex, const Samples& sample
   for (uint32_t f = 0; f < faces.size(); ++f) {
     if (is_disc[f] != 0) rims->state[f] = FaceState::inner;
   }
-  TRY(keep_lids(context, search, discs, which, open_lids));
+  TRY(keep_lids(context, search, discs, which, lids));
   return open_holes(context, &search, discs.hole.span());
 }
 
@@ -15357,8 +15378,8 @@ static void each_in_middle(const Complex& complex, const FlatFaces& faces, uint3
   }
 }
 
-static Status list_open_lids(const Complex& complex, const FlatFaces& faces,
-                             Span<const uint32_t> lids, FlatCells* cells) {
+static Status list_lids(const Complex& complex, const FlatFaces& faces, Span<const uint32_t> lids,
+                        FlatCells* cells) {
   Status status;
   TRY(cells->lid_start.push(0));
   for (const uint32_t f : lids) {
@@ -15431,13 +15452,13 @@ Status find_flat_cells(Context& context, const Complex& complex, const Samples& 
   if (faces.size() == 0) return {};
   FaceRims rims(context);
   FaceCells between(context);
-  Array<uint32_t> open_lids(context);
+  Array<uint32_t> lid_faces(context);
   TRY(link_rims(faces, static_cast<uint32_t>(samples.start.size() - 1), &rims));
   TRY(find_face_cells(complex, faces, &rims, &between));
   TRY(merge_cells(context, samples, lines, faces, &rims, &between));
   TRY(keep_dangling(faces, lines, &rims));
-  TRY(find_lids(context, complex, samples, lines, faces, lids, &rims, &open_lids));
-  TRY(list_open_lids(complex, faces, open_lids.span(), cells));
+  TRY(find_lids(context, complex, samples, lines, faces, lids, &rims, &lid_faces));
+  TRY(list_lids(complex, faces, lid_faces.span(), cells));
   TRY(set_turns(complex, faces, rims, &between, &cells->turn));
   mark_needs(complex, samples, curves, lines, faces, rims, cells->need.span(), &cells->any_settled);
   return {};
@@ -21507,6 +21528,7 @@ Status radix_sort(Context& context, Array<BitsKey>* keys) {
 namespace wireskin::flow {
 
 static constexpr double k_beside = 1e-5;  /* of the diagonal, from an edge */
+static constexpr uint32_t k_edges_per_pause = 1u << 18, k_arcs_per_pause = 1u << 10;
 
 /* What segments of curves join each vertex to. */
 static Status link_segments(const Complex& complex, const CurveEdges& curves,
@@ -21514,6 +21536,7 @@ static Status link_segments(const Complex& complex, const CurveEdges& curves,
   size_t count = 0;
   TRY(across->next_start.assign(complex.point.size() + 1, 0));
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (e % k_edges_per_pause == 0) TRY(across->next.context().checkpoint());
     if (!curves.on_curve(e)) continue;
     ++across->next_start[complex.edge[2 * size_t{e}]];
     ++across->next_start[complex.edge[2 * size_t{e} + 1]];
@@ -21522,15 +21545,13 @@ static Status link_segments(const Complex& complex, const CurveEdges& curves,
   TRY(across->next.resize(count));
   starts_from_counts(across->next_start.span());
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    if (e % k_edges_per_pause == 0) TRY(across->next.context().checkpoint());
     if (!curves.on_curve(e)) continue;
     const uint32_t a = complex.edge[2 * size_t{e}], b = complex.edge[2 * size_t{e} + 1];
     across->next[across->next_start[a]++] = b;
     across->next[across->next_start[b]++] = a;
   }
-  for (size_t v = across->next_start.size() - 1; v > 0; --v) {
-    across->next_start[v] = across->next_start[v - 1];
-  }
-  across->next_start[0] = 0;
+  shift_starts_back(across->next_start.span());
   return {};
 }
 
@@ -21646,6 +21667,7 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
 static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
                          CurvesAcross* across) {
   for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
+    if (line % k_arcs_per_pause == 0) TRY(across->line_end.context().checkpoint());
     const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
     if (first == last) continue;
     const uint32_t arc = lines.arc[first];
@@ -21694,6 +21716,7 @@ Status find_curves_across(const Complex& complex, const Samples& samples, const 
   TRY(list_lines(complex, samples, lines, across));
   TRY(list_curved(complex, samples, lines, across));
   TRY(across->crossed.assign(complex.triangle_count(), Crossed::unknown));
+  TRY(across->judged.reserve(complex.triangle_count()));
   return link_segments(complex, curves, across);
 }
 
@@ -21719,6 +21742,7 @@ bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePl
     const bool crossed = any_line_crosses(complex, plane, seed, triangle, across) ||
                          any_bend_crosses(complex, lines, plane, triangle, across);
     across->crossed[t] = crossed ? Crossed::yes : Crossed::no;
+    across->judged.push_reserved(t);
   }
   return across->crossed[t] == Crossed::yes;
 }
@@ -21730,6 +21754,8 @@ bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePl
 namespace wireskin::flow {
 
 static constexpr double k_cost_of_flat = 1.5;  /* of a curve, where one face too many costs 1 */
+static constexpr uint32_t k_tets_per_pause = 1u << 16;
+static constexpr size_t k_rims_per_pause = size_t{1} << 17;
 
 namespace {
 
@@ -21750,6 +21776,7 @@ struct Merging {
   Array<uint32_t> live;    /* of each arc: its parting faces, the first of its places */
   Array<uint32_t> count;   /* of each arc: those of the pair looked at, else zero */
   Array<uint8_t> changed;  /* of each arc, in this pass */
+  size_t work = 0;         /* arcs looked at since the last checkpoint */
   Array<FacePlace> place;
   Array<CellPair> pair;
   Array<uint32_t> order;
@@ -21794,11 +21821,13 @@ static Status find_cells_of_faces(const Complex& complex, const FlatFaces& faces
   TRY(forest->parent.resize(size_t{outside} + 1));
   TRY(forest->solid.assign(size_t{outside} + 1, 0));
   for (uint32_t i = 0; i <= outside; ++i) {
+    if (i % k_tets_per_pause == 0) TRY(forest->parent.context().checkpoint());
     forest->parent[i] = i;
     forest->solid[i] = i == outside || !is_flat_tet(complex, i, faces.flat);
   }
   Array<uint32_t> separating(forest->parent.context());
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    if (t % k_tets_per_pause == 0) TRY(forest->parent.context().checkpoint());
     if (faces.part[t] == FlatPart::polygon || faces.part[t] == FlatPart::line) {
       TRY(separating.push(t));
     } else {
@@ -21855,7 +21884,7 @@ static double cost_of(const CurveFault& fault) {
 }
 
 /* What the curves gain if the cells on both sides of these faces become one; below zero if one */
-/* would have no faces left. */
+/* would have fewer than two faces left. */
 static double gain_of(const FlatFaces& faces, const StraightLines& lines, const Samples& samples,
                       const FaceRims& rims, FaceCells* cells, const CellPair& pair,
                       Merging* merging) {
@@ -21865,6 +21894,7 @@ static double gain_of(const FlatFaces& faces, const StraightLines& lines, const 
     for (uint32_t p = pair.first; p < pair.last; ++p) {
       const uint32_t f = merging->place[p].face;
       for (uint32_t i = faces.rim_start[f]; i < faces.rim_start[f + 1]; ++i) {
+        ++merging->work;
         visit(faces.rim[i].arc);
       }
     }
@@ -22018,6 +22048,9 @@ Status merge_cells(Context& context, const Samples& samples, const StraightLines
     gather_live(rims, &merging);
     for (CellPair& pair : merging.pair) {
       pair.gain = gain_of(faces, lines, samples, *rims, cells, pair, &merging);
+      if (merging.work < k_rims_per_pause) continue;
+      merging.work = 0;
+      TRY(context.checkpoint());
     }
     TRY(start_pass(&merging));
     for (const uint32_t i : merging.order) {
@@ -23172,18 +23205,16 @@ static bool has_sound_area(const Loops& loops, Span<const Vec3> point,
 }
 
 static Status take_unrefined(const Loops& loops, const LoopMesh& coarse, Array<Vec3>* point,
-                             Array<uint32_t>* triangle, bool* sound) {
+                             Array<uint32_t>* triangle) {
   TRY(point->copy(loops.position));
   for (const Vec3& p : coarse.inner) TRY(point->push(p));
-  TRY(triangle->copy(coarse.triangle.span()));
-  *sound = has_sound_area(loops, point->span(), triangle->span());
-  return {};
+  return triangle->copy(coarse.triangle.span());
 }
 
 /* Refines a copy of the triangulation; `*sound`: whether it has area, and no needle. */
 static Status refine_copy(const Loops& loops, double spacing, const LoopMesh& coarse,
                           Array<Vec3>* point, Array<uint32_t>* triangle, bool* sound) {
-  TRY(take_unrefined(loops, coarse, point, triangle, sound));
+  TRY(take_unrefined(loops, coarse, point, triangle));
   TRY(refine_loops(point->context(), spacing, loops.start, point, triangle));
   *sound = has_sound_area(loops, point->span(), triangle->span());
   return {};
@@ -23205,7 +23236,10 @@ Status mesh_loops(Context& context, const Loops& loops, double spacing, LoopMesh
     TRY(refine_copy(loops, spacing * (1 << k), coarse, &point, &triangle, &sound));
   }
   coarser = coarser || !sound;
-  if (!sound) TRY(take_unrefined(loops, coarse, &point, &triangle, &sound));
+  if (!sound) {
+    TRY(take_unrefined(loops, coarse, &point, &triangle));
+    sound = has_sound_area(loops, point.span(), triangle.span());
+  }
   if (!sound) return fail(Code::patch_folded, "the border of the patch encloses no area");
   const size_t n = loops.position.size();
   TRY(mesh->inner.copy(point.span().part(n, point.size() - n)));
@@ -23588,13 +23622,13 @@ static bool are_apart(const Loops& loops, Span<const BranchEnd> ends, uint32_t a
   const Vec3 move = part * (ends[b].way - ends[a].way);
   const uint32_t n = loops.start[a + 1] - loops.start[a], m = loops.start[b + 1] - loops.start[b];
   bool apart = true;
-  for (uint32_t i = 0; i < k_probes_of_end; ++i) {
+  for (uint32_t i = 0; apart && i < k_probes_of_end; ++i) {
     const uint32_t v = loops.start[a] + static_cast<uint32_t>(uint64_t{i} * n / k_probes_of_end);
-    for (uint32_t j = 0; j < k_probes_of_end; ++j) {
+    for (uint32_t j = 0; apart && j < k_probes_of_end; ++j) {
       const uint32_t w = loops.start[b] + static_cast<uint32_t>(uint64_t{j} * m / k_probes_of_end);
       const Vec3 before = loops.position[w] - loops.position[v];
       const double now = length(before + move);
-      apart = apart && (now > least || now > k_as_far * length(before));
+      apart = now > least || now > k_as_far * length(before);
     }
   }
   return apart;
@@ -23609,8 +23643,8 @@ static Status find_part(Context& context, const Loops& loops, Span<const BranchE
       double clear = 0.0;
       while (clear < *part && are_apart(loops, ends, a, b, clear + k_step)) clear += k_step;
       *part = smaller(*part, clear);
+      TRY(context.checkpoint());
     }
-    TRY(context.checkpoint());
   }
   return {};
 }
@@ -23666,7 +23700,10 @@ Status mesh_branches(Context& context, const Loops& loops, double spacing, LoopM
   TRY(find_part(context, loops, ends.span(), &part));
   if (part == 0.0) return mesh_loops(context, loops, spacing, mesh);
   TRY(move_ends(loops, ends.span(), part, &moved));
-  TRY(mesh_loops(context, {loops.start, moved.span(), loops.normal}, spacing, &core));
+  const Status status =
+      mesh_loops(context, {loops.start, moved.span(), loops.normal}, spacing, &core);
+  if (status.code == Code::patch_folded) return mesh_loops(context, loops, spacing, mesh);
+  TRY(status);
   TRY(add_tubes(loops, ends.span(), moved.span(), &core, &made));
   mesh->inner = static_cast<Array<Vec3>&&>(made.inner);
   mesh->triangle = static_cast<Array<uint32_t>&&>(made.triangle);
@@ -26763,21 +26800,27 @@ static void judge_by_area(const Graph& graph, const Cycles& cycles, uint32_t h, 
   judged->outside[area < 0.0 ? c : rival] = 1;
 }
 
-/* A curve that hangs by one end in a cycle whose other segments are all boundary, k_none where the */
-/* cycle has other segments, too. */
-static uint32_t hanging_in_border(const Graph& graph, const Cycles& cycles, uint32_t cycle) {
-  uint32_t hanging = k_none;
+/* Of each cycle a curve that hangs by one end in it where its other segments are all boundary, else */
+/* k_none. */
+static Status find_hanging(const Graph& graph, const Cycles& cycles, Array<uint32_t>* hanging) {
+  Array<uint8_t> bounded(hanging->context());  /* has an untagged segment on one side only */
+  TRY(hanging->assign(cycles.count, k_none));
+  TRY(bounded.assign(cycles.count, 0));
   for (uint32_t h = 0; h < cycles.next.size(); ++h) {
-    if (cycles.cycle[h] != cycle || graph.segment_of(h).boundary) continue;
-    if (!two_sided(cycles, h)) return k_none;
-    if (hanging == k_none) hanging = h;
+    const uint32_t c = cycles.cycle[h];
+    if (graph.segment_of(h).boundary) continue;
+    if (!two_sided(cycles, h)) bounded[c] = 1;
+    if ((*hanging)[c] == k_none) (*hanging)[c] = h;
   }
-  return hanging;
+  for (uint32_t c = 0; c < cycles.count; ++c) {
+    if (bounded[c]) (*hanging)[c] = k_none;
+  }
+  return {};
 }
 
 /* What is wrong at a boundary segment h that has no surface, or surface on both sides. */
 static Status name_bad_border(const Graph& graph, const Cycles& cycles, Span<const uint8_t> inner,
-                              uint32_t h) {
+                              Span<const uint32_t> hanging, uint32_t h) {
   const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
   const char* sentence =
       "this boundary curve has patches of other curves on both sides: every curve of a border must "
@@ -26790,10 +26833,9 @@ static Status name_bad_border(const Graph& graph, const Cycles& cycles, Span<con
   } else if (!inner[a] && !inner[b]) {
     sentence = "the normals do not tell on which side of this boundary curve the surface lies";
   } else {
-    const uint32_t in_a = hanging_in_border(graph, cycles, a);
-    const uint32_t hanging = in_a != k_none ? in_a : hanging_in_border(graph, cycles, b);
-    if (hanging != k_none) {
-      at = hanging;
+    const uint32_t found = hanging[a] != k_none ? hanging[a] : hanging[b];
+    if (found != k_none) {
+      at = found;
       sentence = "this curve leads away from a border, out to where there is no surface";
     }
   }
@@ -26827,15 +26869,19 @@ static Status find_outside(const Graph& graph, const Cycles& cycles, Judged* jud
     if (two_sided(cycles, h)) continue;
     measured[c] = 1;
     judge_by_area(graph, cycles, h, judged);
+    if (c % 256 == 255) TRY(context.checkpoint());
   }
+  Array<uint32_t> hanging(context);
+  TRY(find_hanging(graph, cycles, &hanging));
   for (uint32_t h = 0; h < halves; h += 2) {
     const Segment& segment = graph.segment_of(h);
     const uint32_t a = cycles.cycle[h], b = cycles.cycle[opposite(h)];
     const int sides = !judged->outside[a] + !judged->outside[b];
     if (!segment.boundary || sides == 1) continue;
-    const Status status = name_bad_border(graph, cycles, inner.span(), h);
+    const Status status = name_bad_border(graph, cycles, inner.span(), hanging.span(), h);
     if (faults == nullptr) return status;
     (*faults)[h / 2] = status;
+    if (h % 4096 == 4094) TRY(context.checkpoint());
   }
   /* What lies there is to be named as a patch that fails, on either side of a ring too. */
   for (uint32_t h = 0; faults != nullptr && h < halves; ++h) {
@@ -27457,16 +27503,22 @@ static bool are_seen_to_cross(const SeenEdge& a, const SeenEdge& b) {
 
 static Status count_crossings(Span<const LinkedEdge> edges, Span<const SeenEdge> seen,
                               Context* context, int32_t* sum) {
+  constexpr size_t k_pairs_between = size_t{1} << 18;  /* some milliseconds */
+  size_t pairs = 0;
   *sum = 0;
   for (size_t i = 0; i < seen.size(); ++i) {
+    ++pairs;
     for (size_t k = i + 1; k < seen.size() && seen[k].low <= seen[i].high; ++k) {
+      ++pairs;
       const LinkedEdge &e = edges[seen[i].edge], &f = edges[seen[k].edge];
       if (e.next == seen[k].edge || f.next == seen[i].edge) continue;
       if (!are_seen_to_cross(seen[i], seen[k])) continue;
       const double side = dot(cross(f.to - f.from, e.to - e.from), f.from - e.from);
       *sum += side > 0.0 ? 1 : side < 0.0 ? -1 : 0;
     }
-    if (i % 64 == 63) TRY(context->checkpoint());
+    if (pairs < k_pairs_between) continue;
+    TRY(context->checkpoint());
+    pairs = 0;
   }
   return {};
 }
@@ -29687,7 +29739,8 @@ static double evidence_for(Lookout* out, uint32_t from, const Tally& t) {
          k_for_spared * spared / (4.0 * k_pi) - k_against;
 }
 
-/* Sums up what loop l sees of each group; of an undecided ring by the side seen first. */
+/* Sums up what loop l sees of each group; of an undecided ring by the side seen first. What rule 2 */
+/* has settled hides what lies behind it, but is not joined again. */
 static Status count_seen(uint32_t l, Lookout* out) {
   Grouping* g = out->g;
   const SightLoop& loop = out->map.loop[l];
@@ -29698,7 +29751,7 @@ static Status count_seen(uint32_t l, Lookout* out) {
     const uint32_t r = g->root(other.patch);
     const bool turned_away = g->network->ring[other.patch] && !out->undecided[other.patch] &&
                              other.reversed != (g->reversed[other.patch] != 0);
-    if (r == own || turned_away) continue;
+    if (r == own || turned_away || g->settled[other.patch]) continue;
     Tally* t = &out->tally[r];
     if (t->loop == k_none) {
       t->loop = s.loop;
@@ -30296,6 +30349,22 @@ static constexpr double k_sharpest = 0.1;
 static constexpr double k_most_bent = 16.0;
 /* First looks take every fourth place. */
 static constexpr uint32_t k_coarse = 4;
+/* A side gives up after so many looks at others that gave no band, or none better than those kept. */
+static constexpr uint32_t k_most_in_vain = 64;
+
+namespace {
+
+/* Another side that may be looked at, and the least cost that the band to it can have. */
+struct RingRival {
+  double least;
+  uint32_t side;
+};
+
+}  /* namespace */
+
+static bool comes_later(const RingRival& x, const RingRival& y) {
+  return x.least != y.least ? x.least > y.least : x.side > y.side;
+}
 
 Status add_ring_side(const Border& border, const RingSide& side, RingBands* bands) {
   const uint32_t n = border.size(), own = static_cast<uint32_t>(bands->side.size());
@@ -30370,27 +30439,50 @@ static void keep_band(const RingBand& band, RingBand* kept, uint32_t* count) {
   kept[at] = band;
 }
 
-/* No band has less area than the distance of the centres times its mean length. */
-static uint32_t nearest_bands(const RingBands& bands, uint32_t a, RingBand* kept) {
-  uint32_t count = 0;
+/* The sides of all other curves as a heap, the first one that whose band may be the least: no band */
+/* has less area than the distance of the centres times its mean length. */
+static void heap_rivals(const RingBands& bands, uint32_t a, Array<RingRival>* heap) {
   const RingSide& own = bands.side[a];
+  heap->clear();
   for (uint32_t b = 0; b < bands.side.size(); ++b) {
     const RingSide& other = bands.side[b];
     if (other.component == own.component) continue;
-    const double least =
-        length(other.centre - own.centre) * 0.5 * (own.length + other.length) / band_weight(1.0);
-    if (count == k_ring_choices && !(least < kept[count - 1].cost)) continue;
+    const double width = 0.5 * (own.length + other.length);
+    heap->push_reserved({length(other.centre - own.centre) * width / band_weight(1.0), b});
+  }
+  for (size_t i = heap->size() / 2; i-- > 0;) {
+    sift_down(heap->data(), i, heap->size(), comes_later);
+  }
+}
+
+static uint32_t nearest_bands(const RingBands& bands, uint32_t a, Array<RingRival>* heap,
+                              RingBand* kept) {
+  uint32_t count = 0, in_vain = 0;
+  heap_rivals(bands, a, heap);
+  while (!heap->empty() && in_vain < k_most_in_vain) {
+    const RingRival rival = (*heap)[0];
+    if (count == k_ring_choices && !(rival.least < kept[count - 1].cost)) break;
+    (*heap)[0] = heap->back();
+    heap->pop();
+    if (!heap->empty()) sift_down(heap->data(), 0, heap->size(), comes_later);
+    const uint32_t b = rival.side;
     const RingBand band = band_of_places(bands, a < b ? a : b, a < b ? b : a, k_coarse);
-    if (band.cost == DBL_MAX) continue;
-    if (count < k_ring_choices || band.cost < kept[count - 1].cost) keep_band(band, kept, &count);
+    const bool better = count < k_ring_choices || band.cost < kept[count - 1].cost;
+    if (band.cost < DBL_MAX && better) {
+      keep_band(band, kept, &count);
+    } else {
+      ++in_vain;
+    }
   }
   return count;
 }
 
 Status list_ring_bands(RingBands* bands) {
   RingBand kept[k_ring_choices];
+  Array<RingRival> heap(bands->band.context());
+  TRY(heap.reserve(bands->side.size()));
   for (uint32_t a = 0; a < bands->side.size(); ++a) {
-    const uint32_t count = nearest_bands(*bands, a, kept);
+    const uint32_t count = nearest_bands(*bands, a, &heap, kept);
     for (uint32_t k = 0; k < count; ++k) {
       const RingBand band = band_between(*bands, kept[k].a, kept[k].b);
       if (band.cost < DBL_MAX) TRY(bands->band.push(band));
@@ -30461,19 +30553,26 @@ struct Chain {
 
 }  /* namespace */
 
+/* A checkpoint after so many bands: an exchange takes some microseconds. */
+static Status pause_after_bands(uint32_t i, Context& context) {
+  return i % 1024 == 1023 ? context.checkpoint() : Status{};
+}
+
 static Status list_bands_of_sides(RingPairing* pairing) {
   Lists& of = pairing->bands_of;
   const RingBands& bands = *pairing->bands;
   TRY(of.start.assign(bands.side.size() + 1, 0));
   TRY(of.item.resize(2 * bands.band.size()));
-  for (const RingBand& band : bands.band) {
-    ++of.start[band.a];
-    ++of.start[band.b];
+  for (uint32_t i = 0; i < bands.band.size(); ++i) {
+    ++of.start[bands.band[i].a];
+    ++of.start[bands.band[i].b];
+    TRY(pause_after_bands(i, of.item.context()));
   }
   starts_from_counts(of.start.span());
   for (uint32_t i = 0; i < bands.band.size(); ++i) {
     of.item[of.start[bands.band[i].a]++] = i;
     of.item[of.start[bands.band[i].b]++] = i;
+    TRY(pause_after_bands(i, of.item.context()));
   }
   for (size_t s = of.start.size() - 1; s > 0; --s) of.start[s] = of.start[s - 1];
   of.start[0] = 0;
@@ -30615,13 +30714,16 @@ static bool is_free(const RingPairing& pairing, uint32_t s) {
 }
 
 /* The bands with the least cost first. */
-static void pair_nearest(double least_cosine, RingPairing* pairing) {
-  for (const RingBand& band : pairing->bands->band) {
+static Status pair_nearest(double least_cosine, RingPairing* pairing) {
+  for (uint32_t i = 0; i < pairing->bands->band.size(); ++i) {
+    const RingBand& band = pairing->bands->band[i];
+    TRY(pause_after_bands(i, pairing->partner.context()));
     if (!may_link(*pairing, band, least_cosine)) continue;
     if (!is_free(*pairing, band.a) || !is_free(*pairing, band.b)) continue;
     const double alone = cost_of_side(*pairing, band.a) + cost_of_side(*pairing, band.b);
     if (band.cost < alone) link_sides(band, pairing);
   }
+  return {};
 }
 
 /* Every round saves something, so there is an end; a few rounds get where many would. */
@@ -30630,7 +30732,9 @@ static Status exchange_partners(double least_cosine, RingPairing* pairing) {
   bool any = true;
   for (int round = 0; any && round < k_most_rounds; ++round) {
     any = false;
-    for (const RingBand& band : pairing->bands->band) {
+    for (uint32_t i = 0; i < pairing->bands->band.size(); ++i) {
+      const RingBand& band = pairing->bands->band[i];
+      TRY(pause_after_bands(i, pairing->partner.context()));
       if (!may_link(*pairing, band, least_cosine)) continue;
       any = change_by(band, least_cosine, true, pairing) < k_saves || any;
     }
@@ -30656,8 +30760,10 @@ static void prefer_lids_in_sight(RingPairing* pairing) {
     side.alone *= band_weight(0.0) / band_weight(side.cosine);
 }
 
-static void mark_doubtful(RingPairing* pairing, Span<uint8_t> doubtful) {
-  for (const RingBand& band : pairing->bands->band) {
+static Status mark_doubtful(RingPairing* pairing, Span<uint8_t> doubtful) {
+  for (uint32_t i = 0; i < pairing->bands->band.size(); ++i) {
+    const RingBand& band = pairing->bands->band[i];
+    TRY(pause_after_bands(i, pairing->partner.context()));
     const RingSide &a = pairing->bands->side[band.a], &b = pairing->bands->side[band.b];
     bool as_good = false;
     if (pairing->partner[band.a] == band.b) {
@@ -30667,6 +30773,7 @@ static void mark_doubtful(RingPairing* pairing, Span<uint8_t> doubtful) {
     }
     if (as_good) doubtful[band.a] = doubtful[band.b] = 1;
   }
+  return {};
 }
 
 Status pair_sides(RingBands* bands, Array<uint32_t>* partner, Array<uint8_t>* doubtful) {
@@ -30679,13 +30786,13 @@ Status pair_sides(RingBands* bands, Array<uint32_t>* partner, Array<uint8_t>* do
   TRY(doubtful->assign(sides, 0));
   TRY(list_ring_bands(bands));
   TRY(list_bands_of_sides(&pairing));
-  pair_nearest(k_in_sight, &pairing);
+  TRY(pair_nearest(k_in_sight, &pairing));
   TRY(exchange_partners(k_in_sight, &pairing));
   fix_partners(&pairing);
   prefer_lids_in_sight(&pairing);
-  pair_nearest(-1.0, &pairing);
+  TRY(pair_nearest(-1.0, &pairing));
   TRY(exchange_partners(-1.0, &pairing));
-  mark_doubtful(&pairing, doubtful->span());
+  TRY(mark_doubtful(&pairing, doubtful->span()));
   return partner->copy(pairing.partner.span());
 }
 
@@ -31478,15 +31585,16 @@ static bool bounds_others(const Network& network, Span<const uint32_t> patch_of,
   return true;
 }
 
-static Status name_leading_out(const Network& network, uint32_t p) {
-  Place place;
-  place.curve = network.segment[network.inner[p][0]].curve;
-  return fail(Code::open_network,
-              "this curve leads away from a border, out to where there is no surface", place);
+static Status name_leading_out(const curves::Curves& fitted, const Network& network, uint32_t p) {
+  const Segment& segment = network.segment[network.inner[p][0]];
+  return fail_at_sample(Code::open_network,
+                        "this curve leads away from a border, out to where there is no surface",
+                        segment.curve, fitted[segment.curve].sample[segment.first_knot]);
 }
 
-Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network* network,
-                     Array<Status>* faults, Array<uint32_t>* original) {
+Status drop_outsides(const curves::Curves& fitted, const CurveVertices& vertices,
+                     Array<Node>* nodes, Network* network, Array<Status>* faults,
+                     Array<uint32_t>* original) {
   Context& context = nodes->context();
   Array<uint32_t> patch_of(context);  /* of each half-segment */
   Array<Status> status(context);
@@ -31502,7 +31610,7 @@ Status drop_outsides(const CurveVertices& vertices, Array<Node>* nodes, Network*
     if (!bounds_others(*network, patch_of.span(), status.span(), p)) continue;
     TRY(border_of_patch(*network, vertices, p, &border));
     if (!runs_clockwise(border)) continue;
-    if (!network->inner[p].empty() && faults->empty()) return name_leading_out(*network, p);
+    if (!network->inner[p].empty() && faults->empty()) return name_leading_out(fitted, *network, p);
     if (!network->inner[p].empty() || !network->point[p].empty()) continue;
     status[p] = fail(Code::patch_without_plane, "outside");
     ++outsides;
