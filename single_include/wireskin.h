@@ -13600,8 +13600,7 @@ static Status link_edges(uint32_t vertices, ArcGraph* graph) {
     graph->edge_at[graph->start[graph->edge[e].a]++] = e;
     graph->edge_at[graph->start[graph->edge[e].b]++] = e;
   }
-  for (size_t v = vertices; v > 0; --v) graph->start[v] = graph->start[v - 1];
-  graph->start[0] = 0;
+  shift_starts_back(graph->start.span());
   return {};
 }
 
@@ -16414,8 +16413,7 @@ static Status link_rooms(Cells* cells) {
   for (uint32_t i = 0; i < cells->wall.size(); ++i) {
     for (const uint32_t r : cells->wall[i].room) cells->room_wall[cells->room_start[r]++] = i;
   }
-  for (size_t r = cells->room.size(); r > 0; --r) cells->room_start[r] = cells->room_start[r - 1];
-  cells->room_start[0] = 0;
+  shift_starts_back(cells->room_start.span());
   return {};
 }
 
@@ -16845,8 +16843,7 @@ static Status gather_own(const Reconstruction& r, const SharedEars& ears, OwnTri
   for (uint32_t t = 0; t < owner.size(); ++t) {
     if (is_own(t)) own->triangle[own->start[owner[t]]++] = t;
   }
-  for (size_t p = r.patches.size(); p > 0; --p) own->start[p] = own->start[p - 1];
-  own->start[0] = 0;
+  shift_starts_back(own->start.span());
   for (uint32_t p = 0; p < r.patches.size(); ++p) {
     const Span<const uint32_t> part = own->of(p);
     for (uint32_t i = 0; i < part.size(); ++i) own->place[part[i]] = i;
@@ -17628,8 +17625,7 @@ Status list_members(const Wires& wires, PointMembers* members) {
   for (uint32_t i = 0; i < wires.samples(); ++i) {
     members->member[members->first[wires.point[i]]++] = i;
   }
-  for (uint32_t p = wires.points; p > 0; --p) members->first[p] = members->first[p - 1];
-  members->first[0] = 0;
+  shift_starts_back(members->first.span());
   return {};
 }
 
@@ -20007,8 +20003,7 @@ Status PointGrid::build(Span<const Vec3> points) {
     item_[start_[index_of(points[i])]++] = {points[i], i};
   }
   /* Each start stands at the next one's place now. */
-  for (size_t c = start_.size() - 1; c > 0; --c) start_[c] = start_[c - 1];
-  start_[0] = 0;
+  shift_starts_back(start_.span());
   for (size_t c = 0; c + 1 < start_.size(); ++c) make_tree({start_[c], start_[c + 1]});
   return {};
 }
@@ -20214,8 +20209,7 @@ static Status gather_ends(const Arcs& arcs, Array<uint32_t>* start, Array<uint32
   for (uint32_t end = 0; end < ends->size(); ++end) {
     (*ends)[(*start)[vertex_at_end(arcs, end)]++] = end;
   }
-  for (size_t v = n; v > 0; --v) (*start)[v] = (*start)[v - 1];
-  (*start)[0] = 0;
+  shift_starts_back(start->span());
   return {};
 }
 
@@ -21153,8 +21147,7 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
   for (uint32_t t = 0; t < count; ++t) {
     each_cell(grid, range_of(t), [&](uint32_t cell) { item[start[cell]++] = t; });
   }
-  for (size_t c = start.size() - 1; c > 0; --c) start[c] = start[c - 1];
-  start[0] = 0;
+  shift_starts_back(start.span());
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
   uint32_t looked_at = 0;
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
@@ -28561,8 +28554,7 @@ Status find_components(const Network& network, const CurveVertices& vertices,
   for (uint32_t v = 0; v < n; ++v) ++start[of[v]];
   starts_from_counts(start.span());
   for (uint32_t v = 0; v < n; ++v) components->members.item[start[of[v]]++] = v;
-  for (uint32_t c = count; c > 0; --c) start[c] = start[c - 1];
-  start[0] = 0;
+  shift_starts_back(start.span());
   TRY(components->bounds.assign(count, 0));
   for (uint32_t h : network.loop.item) {
     components->bounds[of[segment_vertex(network, vertices, h / 2, 0)]] = 1;
@@ -28863,8 +28855,7 @@ static Status list_patches_at_corners(Grouping* g) {
   for (uint32_t p = 0; p < g->corner.count(); ++p) {
     for (uint32_t v : g->corner[p]) at.item[at.start[v]++] = p;
   }
-  for (size_t v = at.start.size() - 1; v > 0; --v) at.start[v] = at.start[v - 1];
-  at.start[0] = 0;
+  shift_starts_back(at.start.span());
   return {};
 }
 
@@ -28945,8 +28936,7 @@ static Status list_patches(const Grouping& g, Lists* lists) {
   for (uint32_t c : g.component) ++lists->start[c];
   starts_from_counts(lists->start.span());
   for (uint32_t p = 0; p < g.component.size(); ++p) lists->item[lists->start[g.component[p]]++] = p;
-  for (size_t c = lists->start.size() - 1; c > 0; --c) lists->start[c] = lists->start[c - 1];
-  lists->start[0] = 0;
+  shift_starts_back(lists->start.span());
   return {};
 }
 
@@ -29902,8 +29892,7 @@ static Status list_held(const Grouping& g, Lists* held) {
   for (uint32_t c = 0; c < g.holder.size(); ++c) {
     if (g.holder[c] != k_none) held->item[held->start[g.holder[c]]++] = c;
   }
-  for (size_t p = held->start.size() - 1; p > 0; --p) held->start[p] = held->start[p - 1];
-  held->start[0] = 0;
+  shift_starts_back(held->start.span());
   return {};
 }
 
@@ -30574,8 +30563,7 @@ static Status list_bands_of_sides(RingPairing* pairing) {
     of.item[of.start[bands.band[i].b]++] = i;
     TRY(pause_after_bands(i, of.item.context()));
   }
-  for (size_t s = of.start.size() - 1; s > 0; --s) of.start[s] = of.start[s - 1];
-  of.start[0] = 0;
+  shift_starts_back(of.start.span());
   return {};
 }
 

@@ -159,8 +159,7 @@ static Status link_edges(uint32_t vertices, ArcGraph* graph) {
     graph->edge_at[graph->start[graph->edge[e].a]++] = e;
     graph->edge_at[graph->start[graph->edge[e].b]++] = e;
   }
-  for (size_t v = vertices; v > 0; --v) graph->start[v] = graph->start[v - 1];
-  graph->start[0] = 0;
+  shift_starts_back(graph->start.span());
   return {};
 }
 

@@ -32,8 +32,7 @@ static Status gather_ends(const Arcs& arcs, Array<uint32_t>* start, Array<uint32
   for (uint32_t end = 0; end < ends->size(); ++end) {
     (*ends)[(*start)[vertex_at_end(arcs, end)]++] = end;
   }
-  for (size_t v = n; v > 0; --v) (*start)[v] = (*start)[v - 1];
-  (*start)[0] = 0;
+  shift_starts_back(start->span());
   return {};
 }
 

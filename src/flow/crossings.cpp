@@ -233,8 +233,7 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
   for (uint32_t t = 0; t < count; ++t) {
     each_cell(grid, range_of(t), [&](uint32_t cell) { item[start[cell]++] = t; });
   }
-  for (size_t c = start.size() - 1; c > 0; --c) start[c] = start[c - 1];
-  start[0] = 0;
+  shift_starts_back(start.span());
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
   uint32_t looked_at = 0;
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {

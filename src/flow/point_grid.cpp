@@ -82,8 +82,7 @@ Status PointGrid::build(Span<const Vec3> points) {
     item_[start_[index_of(points[i])]++] = {points[i], i};
   }
   // Each start stands at the next one's place now.
-  for (size_t c = start_.size() - 1; c > 0; --c) start_[c] = start_[c - 1];
-  start_[0] = 0;
+  shift_starts_back(start_.span());
   for (size_t c = 0; c + 1 < start_.size(); ++c) make_tree({start_[c], start_[c + 1]});
   return {};
 }

@@ -159,8 +159,7 @@ static Status gather_own(const Reconstruction& r, const SharedEars& ears, OwnTri
   for (uint32_t t = 0; t < owner.size(); ++t) {
     if (is_own(t)) own->triangle[own->start[owner[t]]++] = t;
   }
-  for (size_t p = r.patches.size(); p > 0; --p) own->start[p] = own->start[p - 1];
-  own->start[0] = 0;
+  shift_starts_back(own->start.span());
   for (uint32_t p = 0; p < r.patches.size(); ++p) {
     const Span<const uint32_t> part = own->of(p);
     for (uint32_t i = 0; i < part.size(); ++i) own->place[part[i]] = i;

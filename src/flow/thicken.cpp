@@ -182,8 +182,7 @@ static Status link_rooms(Cells* cells) {
   for (uint32_t i = 0; i < cells->wall.size(); ++i) {
     for (const uint32_t r : cells->wall[i].room) cells->room_wall[cells->room_start[r]++] = i;
   }
-  for (size_t r = cells->room.size(); r > 0; --r) cells->room_start[r] = cells->room_start[r - 1];
-  cells->room_start[0] = 0;
+  shift_starts_back(cells->room_start.span());
   return {};
 }
 

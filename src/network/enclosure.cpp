@@ -50,8 +50,7 @@ Status find_components(const Network& network, const CurveVertices& vertices,
   for (uint32_t v = 0; v < n; ++v) ++start[of[v]];
   starts_from_counts(start.span());
   for (uint32_t v = 0; v < n; ++v) components->members.item[start[of[v]]++] = v;
-  for (uint32_t c = count; c > 0; --c) start[c] = start[c - 1];
-  start[0] = 0;
+  shift_starts_back(start.span());
   TRY(components->bounds.assign(count, 0));
   for (uint32_t h : network.loop.item) {
     components->bounds[of[segment_vertex(network, vertices, h / 2, 0)]] = 1;

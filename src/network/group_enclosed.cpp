@@ -17,8 +17,7 @@ static Status list_patches(const Grouping& g, Lists* lists) {
   for (uint32_t c : g.component) ++lists->start[c];
   starts_from_counts(lists->start.span());
   for (uint32_t p = 0; p < g.component.size(); ++p) lists->item[lists->start[g.component[p]]++] = p;
-  for (size_t c = lists->start.size() - 1; c > 0; --c) lists->start[c] = lists->start[c - 1];
-  lists->start[0] = 0;
+  shift_starts_back(lists->start.span());
   return {};
 }
 

@@ -59,8 +59,7 @@ static Status list_patches_at_corners(Grouping* g) {
   for (uint32_t p = 0; p < g->corner.count(); ++p) {
     for (uint32_t v : g->corner[p]) at.item[at.start[v]++] = p;
   }
-  for (size_t v = at.start.size() - 1; v > 0; --v) at.start[v] = at.start[v - 1];
-  at.start[0] = 0;
+  shift_starts_back(at.start.span());
   return {};
 }
 

@@ -45,8 +45,7 @@ static Status list_held(const Grouping& g, Lists* held) {
   for (uint32_t c = 0; c < g.holder.size(); ++c) {
     if (g.holder[c] != k_none) held->item[held->start[g.holder[c]]++] = c;
   }
-  for (size_t p = held->start.size() - 1; p > 0; --p) held->start[p] = held->start[p - 1];
-  held->start[0] = 0;
+  shift_starts_back(held->start.span());
   return {};
 }
 

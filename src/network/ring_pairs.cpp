@@ -68,8 +68,7 @@ static Status list_bands_of_sides(RingPairing* pairing) {
     of.item[of.start[bands.band[i].b]++] = i;
     TRY(pause_after_bands(i, of.item.context()));
   }
-  for (size_t s = of.start.size() - 1; s > 0; --s) of.start[s] = of.start[s - 1];
-  of.start[0] = 0;
+  shift_starts_back(of.start.span());
   return {};
 }
 

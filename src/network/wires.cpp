@@ -114,8 +114,7 @@ Status list_members(const Wires& wires, PointMembers* members) {
   for (uint32_t i = 0; i < wires.samples(); ++i) {
     members->member[members->first[wires.point[i]]++] = i;
   }
-  for (uint32_t p = wires.points; p > 0; --p) members->first[p] = members->first[p - 1];
-  members->first[0] = 0;
+  shift_starts_back(members->first.span());
   return {};
 }
 
