@@ -14907,11 +14907,11 @@ struct ArcEnds {
 };
 
 struct LidSearch {
-  const Complex* complex;
-  const Samples* samples;
-  const StraightLines* lines;
-  const FlatFaces* faces;
-  FaceRims* rims;
+  const Complex* complex = nullptr;
+  const Samples* samples = nullptr;
+  const StraightLines* lines = nullptr;
+  const FlatFaces* faces = nullptr;
+  FaceRims* rims = nullptr;
   ArcEnds ends;
   size_t work = 0;
 
@@ -23467,8 +23467,10 @@ static Status row_of_loop(const Walk& walk, Span<const Match> matches, bool seco
     TRY(own.push(fraction(second ? matched(matches, walk.share[i], true) : walk.share[i])));
     if (own[i] < own[first]) first = i;
   }
-  /* Of vertices matched to one place the one that follows another place is first. */
-  while (second && own[first] == own[(first + n - 1) % n]) first = (first + n - 1) % n;
+  /* Of vertices matched to one place the one that follows another place is first, if any does. */
+  for (size_t i = 1; second && i < n && own[first] == own[(first + n - 1) % n]; ++i) {
+    first = (first + n - 1) % n;
+  }
   for (size_t i = 0; i < n; ++i) {
     const size_t k = (first + i) % n;
     double share = own[k];

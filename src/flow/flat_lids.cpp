@@ -19,11 +19,11 @@ struct ArcEnds {
 };
 
 struct LidSearch {
-  const Complex* complex;
-  const Samples* samples;
-  const StraightLines* lines;
-  const FlatFaces* faces;
-  FaceRims* rims;
+  const Complex* complex = nullptr;
+  const Samples* samples = nullptr;
+  const StraightLines* lines = nullptr;
+  const FlatFaces* faces = nullptr;
+  FaceRims* rims = nullptr;
   ArcEnds ends;
   size_t work = 0;
 
