@@ -113,7 +113,8 @@ enum {
   /* A coordinate or a normal is infinite, or the coordinates span more than a double can hold, or
      they lie more than 2^100 times what they span from the origin. */
   WSK_ERROR_INFINITE = 9,
-  /* All samples of a curve are the same point. */
+  /* All samples of a curve are the same point, or (wsk_connect) as good as one beside the size of
+     the whole: squares of its lengths underflow. */
   WSK_ERROR_ZERO_LENGTH_CURVE = 10,
   /* Two neighbouring samples of a curve (or the last and the first of a closed one) coincide. */
   WSK_ERROR_DUPLICATE_SAMPLES = 11,
@@ -893,7 +894,7 @@ typedef struct wsk_flow_view {
   /* Of the last surface: voids of enough ratio beyond those that were looked at, which are the 200
      of the greatest ratio and all that flat faces close. */
   uint32_t untried_count;
-  uint32_t open_lid_count; /* likewise: round ends that are open; WSK_LIDS_ALL closes them */
+  uint32_t open_lid_count; /* likewise: round ends that are open; WSK_LIDS_ALL asks for each */
 } wsk_flow_view;
 
 /* Samples the curves and finds the voids. Curves join where samples carry the same node number or

@@ -40,6 +40,26 @@ static double box_diagonal(Span<const Vec3> points) {
   return length(high - low);
 }
 
+// Where a whole curve is a point beside the size of the network, squares of its lengths underflow
+// and all places of it would be taken for one.
+static Status check_extents(const network::Wires& wires) {
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    const Vec3 first = wires.position[wires.start[c]];
+    bool differs = false, moves = false;
+    for (uint32_t i = wires.start[c]; i < wires.start[c + 1] && !moves; ++i) {
+      differs = differs || wires.position[i] != first;
+      moves = length(wires.position[i] - first) > 0.0;
+    }
+    if (moves || !differs) continue;
+    return fail(
+        Code::zero_length_curve,
+        "the curve is but a point beside the size of the network: does a position of another "
+        "one lie far out?",
+        curve_place(c));
+  }
+  return {};
+}
+
 static void report_wires(const network::WireCounts& counts, wsk_report* report) {
   report->curves = counts.curves;
   report->nodes = counts.nodes;
@@ -56,6 +76,7 @@ static Status connect(Context& context, const wsk_curve* curves, size_t count,
   TRY(find_scale(wires.position.span(), &exponent));
   const Scale scale(-exponent);
   for (Vec3& p : wires.position) p = scale(p);
+  TRY(check_extents(wires));
   const double diagonal = box_diagonal(wires.position.span());
   network::ConnectOptions chosen;
   chosen.snap = options.snap >= 0.0;

@@ -149,6 +149,7 @@ Status mesh_branches(Context& context, const Loops& loops, double spacing, LoopM
   TRY(add_tubes(loops, ends.span(), moved.span(), &core, &made));
   mesh->inner = static_cast<Array<Vec3>&&>(made.inner);
   mesh->triangle = static_cast<Array<uint32_t>&&>(made.triangle);
+  mesh->coarse = core.coarse;
   return {};
 }
 

@@ -138,22 +138,23 @@ Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius,
   queue_.clear();
   TRY(relax(a.bead, a.behind, radius));
   if (a.behind > 0.0) TRY(relax(bead[a.bead].next, bead[a.bead].to_next - a.behind, radius));
-  for (size_t k = 0; k < queue_.size(); ++k) {
+  const auto reached = [&](uint32_t at, double behind) {
+    return at != k_none && stamp_[at] == now_ && best_[at] + behind <= radius;
+  };
+  const auto found = [&] {
+    return reached(b.bead, b.behind) ||
+           (b.behind > 0.0 && reached(bead[b.bead].next, bead[b.bead].to_next - b.behind));
+  };
+  *result = found() || (a.bead == b.bead && std::fabs(a.behind - b.behind) <= radius);
+  for (size_t k = 0; k < queue_.size() && !*result; ++k) {
     const uint32_t u = queue_[k], before = bead[u].previous;
     const double distance = best_[u];
     TRY(relax(bead[u].ring, distance, radius));
     if (own && beads_.curve_of(u) != curve_a && beads_.curve_of(u) != curve_b) continue;
     TRY(relax(bead[u].next, distance + bead[u].to_next, radius));
     if (before != k_none) TRY(relax(before, distance + bead[before].to_next, radius));
+    *result = found();
   }
-  const auto reached = [&](uint32_t at, double behind) {
-    return at != k_none && stamp_[at] == now_ && best_[at] + behind <= radius;
-  };
-  *result = reached(b.bead, b.behind);
-  if (b.behind > 0.0) {
-    *result = *result || reached(bead[b.bead].next, bead[b.bead].to_next - b.behind);
-  }
-  *result = *result || (a.bead == b.bead && std::fabs(a.behind - b.behind) <= radius);
   return {};
 }
 

@@ -1,7 +1,6 @@
 # The golden hashes on another processor, system or byte order: the single header is built by the cross
 # compiler of MACHINE and runs in an emulator; it must give the bits of golden.h. Says what is missing
-# where it cannot. gcc's passes at -O1 with the expensive ones, of which one fuses multiply and add where
-# it may, take two thirds of the time of -O2.
+# where it cannot.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/tests/embed/start.cmake)
 
@@ -33,14 +32,13 @@ endfunction()
 
 set(ENV{WINEDEBUG} -all)
 set(ENV{WINEPREFIX} ${WORK}/wine)
-set(gcc "-O1 -fexpensive-optimizations")
-check_target(i686 i686-linux-gnu-g++ "${gcc} -msse2 -mfpmath=sse -static" "")
-check_target(aarch64 aarch64-linux-gnu-g++ "${gcc} -static" "qemu-aarch64-static")
-check_target(armhf arm-linux-gnueabihf-g++ "${gcc} -static" "qemu-arm-static")
-check_target(s390x s390x-linux-gnu-g++ "${gcc} -static" "qemu-s390x-static")
-check_target(ppc64 powerpc64-linux-gnu-g++ "${gcc} -static" "qemu-ppc64-static")
-check_target(riscv64 riscv64-linux-gnu-g++ "${gcc} -static" "qemu-riscv64-static")
-check_target(windows x86_64-w64-mingw32-g++ "${gcc} -static" "wine64")
+check_target(i686 i686-linux-gnu-g++ "-O2 -msse2 -mfpmath=sse -static" "")
+check_target(aarch64 aarch64-linux-gnu-g++ "-O2 -static" "qemu-aarch64-static")
+check_target(armhf arm-linux-gnueabihf-g++ "-O2 -static" "qemu-arm-static")
+check_target(s390x s390x-linux-gnu-g++ "-O2 -static" "qemu-s390x-static")
+check_target(ppc64 powerpc64-linux-gnu-g++ "-O2 -static" "qemu-ppc64-static")
+check_target(riscv64 riscv64-linux-gnu-g++ "-O2 -static" "qemu-riscv64-static")
+check_target(windows x86_64-w64-mingw32-g++ "-O2 -static" "wine64")
 if(EXISTS /usr/include/wasm32-wasi OR NOT MACHINE STREQUAL "wasm")
   check_target(wasm clang++-14 "-O2 --target=wasm32-wasi -fno-exceptions"
                "node --no-warnings ${ROOT}/tests/golden/run_wasi.mjs")

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "flow/unseen_more.h"
-#include "unit/flow/prisms.h"
+#include "unit/flow/faces.h"
 
 using namespace unit;
 using flow_tests::Net;
@@ -11,12 +11,10 @@ using namespace wireskin::flow;
 
 namespace {
 
-struct Across : FlowOf {
-  StraightLines lines{heap.context};
+struct Across : LinesOf {
   CurvesAcross across{heap.context};
 
-  explicit Across(const Net& net) : FlowOf(net) {
-    must(find_straight_lines(flow.complex, flow.samples, &lines));
+  explicit Across(const Net& net) : LinesOf(net) {
     must(find_curves_across(flow.complex, flow.samples, flow.curves, lines, &across));
   }
   FacePlane plane_of(uint32_t t) const {

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "flow/unseen_more.h"
-#include "unit/flow/prisms.h"
+#include "unit/flow/faces.h"
 
 using namespace unit;
 using flow_tests::Net;
@@ -11,17 +11,8 @@ using namespace wireskin::flow;
 
 namespace {
 
-struct RimsOf : FlowOf {
-  StraightLines lines{heap.context};
-  FlatFaces faces{heap.context};
-  FaceRims rims{heap.context};
-
-  explicit RimsOf(const Net& net) : FlowOf(net) {
-    must(find_straight_lines(flow.complex, flow.samples, &lines));
-    must(
-        find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, 0.0, &faces));
-    must(link_rims(faces, uint32_t(flow.samples.start.size() - 1), &rims));
-  }
+struct Faults : RimsOf {
+  using RimsOf::RimsOf;
   CurveFault fault(uint32_t arc) const {
     return fault_of(faces, lines, rims, arc, [](uint32_t) { return true; });
   }
@@ -30,7 +21,7 @@ struct RimsOf : FlowOf {
 }  // namespace
 
 TEST_CASE("each edge of a cube has two faces, which make a crease") {
-  const RimsOf cube(flow_tests::lattice(1, 1, 1));
+  const Faults cube(flow_tests::lattice(1, 1, 1));
   REQUIRE(cube.rims.arc_count() == 12);
   for (uint32_t a = 0; a < 12; ++a) {
     CHECK(cube.fault(a).faces == 2);
@@ -39,7 +30,7 @@ TEST_CASE("each edge of a cube has two faces, which make a crease") {
 }
 
 TEST_CASE("the edge between two squares in a plane has two that are flat") {
-  const RimsOf grid(flow_tests::lattice(2, 1, 0));
+  const Faults grid(flow_tests::lattice(2, 1, 0));
   size_t flat = 0, one = 0;
   for (uint32_t a = 0; a < grid.rims.arc_count(); ++a) {
     flat += grid.fault(a).flat;
@@ -50,7 +41,7 @@ TEST_CASE("the edge between two squares in a plane has two that are flat") {
 }
 
 TEST_CASE("of the faces at an arc those count that are to count") {
-  const RimsOf cubes(flow_tests::lattice(2, 1, 1));
+  const Faults cubes(flow_tests::lattice(2, 1, 1));
   size_t three = 0;
   for (uint32_t a = 0; a < cubes.rims.arc_count(); ++a) {
     three += cubes.fault(a).faces == 3;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "flow/robustness.h"
-#include "unit/flow/prisms.h"
+#include "unit/flow/faces.h"
 
 using namespace unit;
 using flow_tests::Net;
@@ -16,15 +16,8 @@ using wireskin::flow::StraightLines;
 namespace {
 
 // The faces, each with the area of its projection: layers of flat tetrahedra count once.
-struct Faces : FlowOf {
-  StraightLines lines{heap.context};
-  FlatFaces faces{heap.context};
-
-  explicit Faces(const Net& net, double noise = 0.0) : FlowOf(net) {
-    must(find_straight_lines(flow.complex, flow.samples, &lines));
-    must(find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, noise,
-                         &faces));
-  }
+struct Faces : FacesOf {
+  using FacesOf::FacesOf;
   // What a face's border encloses, by the arcs round it.
   double area(uint32_t f) const {
     const auto& samples = flow.samples;

@@ -2,11 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
-#include "flow/merge_cells.h"
 #include "flow/round.h"
-#include "unit/flow/prisms.h"
+#include "unit/flow/faces.h"
 
 using namespace unit;
 using flow_tests::Net;
@@ -14,24 +11,12 @@ using namespace wireskin::flow;
 
 namespace {
 
-struct LidsOf : FlowOf {
-  StraightLines lines{heap.context};
-  FlatFaces faces{heap.context};
-  FaceRims rims{heap.context};
-  FaceCells cells{heap.context};
+struct LidsOf : CellsOf {
   wireskin::Array<uint32_t> lids{heap.context};
 
-  LidsOf(const Net& net, Lids which) : FlowOf(net) {
-    must(find_straight_lines(flow.complex, flow.samples, &lines));
-    must(
-        find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, 0.0, &faces));
-    must(link_rims(faces, uint32_t(flow.samples.start.size() - 1), &rims));
-    must(find_face_cells(flow.complex, faces, &rims, &cells));
-    must(merge_cells(heap.context, flow.samples, lines, faces, &rims, &cells));
+  LidsOf(const Net& net, Lids which) : CellsOf(net) {
+    merge();
     must(find_lids(heap.context, flow.complex, flow.samples, lines, faces, which, &rims, &lids));
-  }
-  size_t count(FaceState state) const {
-    return size_t(std::count(rims.state.begin(), rims.state.end(), state));
   }
 };
 

@@ -2,11 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <set>
 
 #include "flow/unseen_more.h"
-#include "unit/flow/prisms.h"
+#include "unit/flow/faces.h"
 
 using namespace unit;
 using flow_tests::Net;
@@ -14,27 +13,12 @@ using namespace wireskin::flow;
 
 namespace {
 
-struct MergedOf : FlowOf {
-  StraightLines lines{heap.context};
-  FlatFaces faces{heap.context};
-  FaceRims rims{heap.context};
-  FaceCells cells{heap.context};
-
-  explicit MergedOf(const Net& net) : FlowOf(net) {
-    must(find_straight_lines(flow.complex, flow.samples, &lines));
-    must(
-        find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, 0.0, &faces));
-    must(link_rims(faces, uint32_t(flow.samples.start.size() - 1), &rims));
-    must(find_face_cells(flow.complex, faces, &rims, &cells));
-  }
-  void merge() { must(merge_cells(heap.context, flow.samples, lines, faces, &rims, &cells)); }
+struct MergedOf : CellsOf {
+  using CellsOf::CellsOf;
   size_t cell_count() {
     std::set<uint32_t> roots;
     for (uint32_t i = 0; i < cells.forest.parent.size(); ++i) roots.insert(cells.forest.root_of(i));
     return roots.size();
-  }
-  size_t count(FaceState state) const {
-    return size_t(std::count(rims.state.begin(), rims.state.end(), state));
   }
 };
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "unit/flow/prisms.h"
+#include "unit/flow/faces.h"
 
 using namespace unit;
 using flow_tests::Net;
@@ -11,12 +11,8 @@ using wireskin::flow::StraightLines;
 
 namespace {
 
-struct Lines : FlowOf {
-  StraightLines lines{heap.context};
-
-  explicit Lines(const Net& net) : FlowOf(net) {
-    must(find_straight_lines(flow.complex, flow.samples, &lines));
-  }
+struct Lines : LinesOf {
+  using LinesOf::LinesOf;
   size_t count() const {
     uint32_t most = 0;
     for (const uint32_t line : lines.line_of) {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -114,4 +115,31 @@ TEST_CASE("branches: loops that are no ends of tubes are meshed as they are") {
   for (size_t i = 0; i < plain.triangle.size(); ++i) {
     CHECK(branches.triangle[i] == plain.triangle[i]);
   }
+}
+
+TEST_CASE("branches: where what is between the tubes had to be meshed coarser, that is said") {
+  std::mt19937 random(4);
+  const auto uniform = [&random] { return random() / 4294967296.0; };
+  int coarse = 0, fine = 0;
+  for (int k = 0; k < 60; ++k) {
+    Ends ends;  // three tubes of noisy rims, a few of their edges far shorter than the others
+    for (int tube = 0; tube < 3; ++tube) {
+      const double a = 2 * k_pi * tube / 3;
+      const Vec3 out = {std::cos(a), std::sin(a), 0}, side = {-out.y, out.x, 0};
+      double t = 0.0;
+      while (t < 2 * k_pi) {
+        const Vec3 away = std::cos(t) * side + Vec3{0, 0, -std::sin(t)};
+        ends.position.push_back(3.0 * out + (1.0 + 0.004 * uniform()) * away);
+        ends.normal.push_back(away);
+        t += uniform() < 0.15 ? 1e-4 : 0.26;
+      }
+      ends.start.push_back(static_cast<uint32_t>(ends.position.size()));
+    }
+    Heap heap;
+    LoopMesh mesh(heap.context);
+    must(mesh_branches(heap.context, ends.loops(), 0.13, &mesh));
+    ++(mesh.coarse ? coarse : fine);
+  }
+  CHECK(coarse > 0);
+  CHECK(fine > 0);
 }

@@ -1,0 +1,22 @@
+// A pass over many things that may take longer than a caller wants to wait: body(i) for each index
+// below `count`, in order, with a checkpoint after every part of 4096. Short passes have none, so
+// that small calls are not slowed down; the stage that makes many of them has its own.
+#pragma once
+
+#include "base/context.h"
+
+namespace wireskin {
+
+template <class Body>
+Status in_parts(Context& context, size_t count, const Body& body) {
+  constexpr size_t k_part = 4096;
+  size_t i = 0;
+  while (count - i >= k_part) {
+    for (const size_t end = i + k_part; i < end; ++i) body(i);
+    TRY(context.checkpoint());
+  }
+  for (; i < count; ++i) body(i);
+  return {};
+}
+
+}  // namespace wireskin
