@@ -899,7 +899,7 @@ typedef struct wsk_flow_view {
   /* Of the last surface: voids of enough ratio beyond those that were looked at, which are the 200
      of the greatest ratio and all that flat faces close. */
   uint32_t untried_count;
-  uint32_t open_lid_count; /* likewise: round ends that are open; WSK_LIDS_ALL closes them */
+  uint32_t open_lid_count; /* likewise: round ends that are open; WSK_LIDS_ALL asks for each */
 } wsk_flow_view;
 
 /* Samples the curves and finds the voids. Curves join where samples carry the same node number or
@@ -23702,6 +23702,7 @@ Status mesh_branches(Context& context, const Loops& loops, double spacing, LoopM
   TRY(add_tubes(loops, ends.span(), moved.span(), &core, &made));
   mesh->inner = static_cast<Array<Vec3>&&>(made.inner);
   mesh->triangle = static_cast<Array<uint32_t>&&>(made.triangle);
+  mesh->coarse = core.coarse;
   return {};
 }
 

@@ -3,6 +3,7 @@
 // header and the inside.
 #include "api/boundary.h"
 #include "api/curves.h"
+#include "base/in_parts.h"
 
 namespace wireskin::api {
 
@@ -39,6 +40,7 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
     Place place;
     place.vertex = static_cast<uint32_t>(v);
     storage->held[v] = mesh.constrained[v] != 0;
+    if (v % 65536 == 65535) TRY(storage->held.context().checkpoint());
     TRY(read_position({mesh.positions, mesh.position_stride}, v, place, &storage->position[v]));
     if (mesh.normals != nullptr && storage->held[v]) {
       TRY(read_normal({mesh.normals, mesh.normal_stride}, v, place, &storage->normal[v]));
@@ -86,7 +88,8 @@ static Status smooth_mesh(Context& context, const wsk_mesh& mesh, const wsk_opti
   TRY(read_mesh(mesh, needs_normals, &storage));
   TRY(find_scale(storage.position.span(), &exponent));
   const Scale scale(-exponent);
-  for (Vec3& p : storage.position) p = scale(p);
+  TRY(in_parts(context, storage.position.size(),
+               [&](size_t v) { storage.position[v] = scale(storage.position[v]); }));
   const TriangleSet set = {storage.position.span(),
                            storage.normal.span(),
                            storage.held.span(),

@@ -1,5 +1,6 @@
 #include "surface.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "network/group.h"
 #include "network/outsides.h"
@@ -111,12 +112,15 @@ static Status take_vertices(const network::CurveVertices& vertices,
   TRY(surface->position.assign(patches.vertices, Vec3{}));
   TRY(surface->constraint_normal.assign(patches.vertices, Vec3{}));
   TRY(surface->vertex_curve.assign(patches.vertices, k_none));
-  for (size_t v = 0; v < given; ++v) {
+  Context& context = surface->position.context();
+  TRY(in_parts(context, given, [&](size_t v) {
     surface->position[v] = vertices.position[v];
     surface->constraint_normal[v] = vertices.normal[v];
     surface->vertex_curve[v] = vertices.curve[v];
-  }
+  }));
+  TRY(context.checkpoint());
   TRY(surface->triangle.copy(patches.triangle.span()));
+  TRY(context.checkpoint());
   return surface->patch.copy(patches.patch.span());
 }
 
@@ -225,7 +229,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   }
   TRY(verify_surface(context, network, surface->position.span(), *surface));
   if (!original.empty()) {  // the smoothing counted those that are left
-    for (uint32_t& p : surface->patch) p = original[p];
+    TRY(in_parts(context, surface->patch.size(),
+                 [&](size_t t) { surface->patch[t] = original[surface->patch[t]]; }));
     counts->patches += counts->failed_patches;
     uint32_t& inverted = counts->first_inverted_patch;
     if (inverted != k_none) inverted = original[inverted];
@@ -236,12 +241,14 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
 
 // Every component and every border must be held, or the surface would be free to float away.
 static Status check_held(const TriangleSet& set, const mesh::Topology& topology) {
-  Array<uint8_t> anchored(topology.component.context());
+  Context& context = topology.component.context();
+  Array<uint8_t> anchored(context);
   TRY(anchored.assign(topology.components, 0));
-  for (uint32_t v = 0; v < set.constrained.size(); ++v) {
+  TRY(in_parts(context, set.constrained.size(), [&](size_t v) {
     if (set.constrained[v]) anchored[topology.component[v]] = 1;
-  }
+  }));
   for (uint32_t v = 0; v < set.constrained.size(); ++v) {
+    if (v % 65536 == 65535) TRY(context.checkpoint());
     Place place;
     place.vertex = v;
     if (topology.on_border[v] && !set.constrained[v]) {
@@ -254,12 +261,15 @@ static Status check_held(const TriangleSet& set, const mesh::Topology& topology)
   return {};
 }
 
-static double mean_edge_length(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+static Status mean_edge_length(Context& context, Span<const Vec3> positions,
+                               Span<const uint32_t> triangles, double* mean) {
   double sum = 0.0;
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    sum += length(positions[triangles[mesh::next_half_edge(h)]] - positions[triangles[h]]);
-  }
-  return sum / static_cast<double>(triangles.size());
+  TRY(in_parts(context, triangles.size(), [&](size_t h) {
+    const uint32_t next = triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    sum += length(positions[next] - positions[triangles[h]]);
+  }));
+  *mean = sum / static_cast<double>(triangles.size());
+  return {};
 }
 
 static Status take_triangles(const TriangleSet& set, Surface* surface) {
@@ -272,12 +282,11 @@ static Status take_triangles(const TriangleSet& set, Surface* surface) {
   TRY(surface->patches.curve_start.assign(2, 0));
   TRY(surface->constraint_normal.assign(n, Vec3{}));
   TRY(surface->vertex_curve.assign(n, k_none));
-  for (size_t v = 0; v < n; ++v) {
-    if (!set.constrained[v]) continue;
+  return in_parts(surface->position.context(), n, [&](size_t v) {
+    if (!set.constrained[v]) return;
     surface->vertex_curve[v] = 0;
     if (!set.normal.empty()) surface->constraint_normal[v] = set.normal[v];
-  }
-  return {};
+  });
 }
 
 Status surface_triangles(Context& context, const TriangleSet& set, const Settings& settings,
@@ -290,11 +299,11 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
 
   TRY(context.enter(Stage::patches));
   TRY(count_topology(n, set.triangle, &topology, counts));
-  TRY(mesh::check_areas(set.position, set.triangle));
+  TRY(mesh::check_areas(context, set.position, set.triangle));
   TRY(check_held(set, topology));
   counts->patches = 1;
   for (uint8_t constrained : set.constrained) counts->free_vertices += constrained == 0;
-  counts->spacing = mean_edge_length(set.position, set.triangle);
+  TRY(mean_edge_length(context, set.position, set.triangle, &counts->spacing));
   TRY(take_triangles(set, surface));
   TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
   TRY(check_cutoff(set.soft, diagonal(set.position), k_none));

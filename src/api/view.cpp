@@ -1,5 +1,7 @@
 #include "api/view.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::api {
 
 // Where the arrays of a surface's view stand in its block.
@@ -45,16 +47,27 @@ static const uint32_t* write_indices(unsigned char* block, size_t offset,
   return reinterpret_cast<const uint32_t*>(block + offset);
 }
 
-static void write_curvatures(const Surface& surface, const SurfaceLayout& layout,
-                             const Scale& curvatures, unsigned char* block,
-                             wsk_surface_view* view) {
-  const size_t n = surface.position.size();
+static Status write_vectors(Context& context, Span<const Vec3> values, const Scale& scale,
+                            unsigned char* place, const double** vectors) {
+  double* out = reinterpret_cast<double*>(place);
+  *vectors = out;
+  return in_parts(context, values.size(), [&](size_t i) {
+    const Vec3 v = scale(values[i]);
+    out[3 * i] = v.x, out[3 * i + 1] = v.y, out[3 * i + 2] = v.z;
+  });
+}
+
+static Status write_curvatures(Context& context, const Surface& surface,
+                               const SurfaceLayout& layout, const Scale& curvatures,
+                               unsigned char* block, wsk_surface_view* view) {
   double* h = reinterpret_cast<double*>(block + layout.curvature);
-  for (size_t v = 0; v < n; ++v) h[v] = curvatures(surface.mean_curvature[v]);
-  view->mean_curvature = h;
   double* k = reinterpret_cast<double*>(block + layout.gaussian);
-  for (size_t v = 0; v < n; ++v) k[v] = curvatures(curvatures(surface.gaussian_curvature[v]));
+  view->mean_curvature = h;
   view->gaussian_curvature = k;
+  return in_parts(context, surface.position.size(), [&](size_t v) {
+    h[v] = curvatures(surface.mean_curvature[v]);
+    k[v] = curvatures(curvatures(surface.gaussian_curvature[v]));
+  });
 }
 
 // Surfaces of meshes and of flows have patches that no list says more of.
@@ -84,6 +97,7 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   wsk_surface* handle = static_cast<wsk_surface*>(memory);
   handle->allocator = context.allocator();
   handle->bytes = layout.bytes;
+  *out = handle;
   wsk_surface_view& view = handle->view;
   view = {};
   view.size = sizeof view;
@@ -91,12 +105,14 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   view.triangle_count = static_cast<uint32_t>(surface.patch.size());
   view.patch_count = surface.counts.patches;
   view.curve_edge_count = static_cast<uint32_t>(surface.curve_edge_curve.size());
-  view.positions = write_vectors(block, layout.positions, surface.position.span(), lengths);
-  view.normals = write_vectors(block, layout.normals, surface.normal.span(), none);
-  view.constraint_normals =
-      write_vectors(block, layout.constraint, surface.constraint_normal.span(), none);
-  write_curvatures(surface, layout, curvatures, block, &view);
+  TRY(write_vectors(context, surface.position.span(), lengths, block + layout.positions,
+                    &view.positions));
+  TRY(write_vectors(context, surface.normal.span(), none, block + layout.normals, &view.normals));
+  TRY(write_vectors(context, surface.constraint_normal.span(), none, block + layout.constraint,
+                    &view.constraint_normals));
+  TRY(write_curvatures(context, surface, layout, curvatures, block, &view));
   view.vertex_curve = write_indices(block, layout.vertex_curve, surface.vertex_curve);
+  TRY(context.checkpoint());
   view.triangles = write_indices(block, layout.triangle, surface.triangle);
   view.triangle_patch = write_indices(block, layout.patch, surface.patch);
   view.curve_edges = write_indices(block, layout.edges, surface.curve_edge);
@@ -109,10 +125,9 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   view.crease_corner_count = static_cast<uint32_t>(surface.crease_normals.corner.size());
   view.crease_corners = write_indices(block, layout.crease_corners, surface.crease_normals.corner);
   if (view.crease_corner_count > 0) {
-    view.crease_normals =
-        write_vectors(block, layout.crease_normals, surface.crease_normals.normal.span(), none);
+    TRY(write_vectors(context, surface.crease_normals.normal.span(), none,
+                      block + layout.crease_normals, &view.crease_normals));
   }
-  *out = handle;
   return context.progress(1.0);
 }
 

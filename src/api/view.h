@@ -44,17 +44,8 @@ void fill_view(const Handle* handle, View* view, size_t size) {
   view->size = size;
 }
 
-inline const double* write_vectors(unsigned char* block, size_t offset, Span<const Vec3> values,
-                                   const Scale& scale) {
-  double* out = reinterpret_cast<double*>(block + offset);
-  for (size_t i = 0; i < values.size(); ++i) {
-    const Vec3 v = scale(values[i]);
-    out[3 * i] = v.x, out[3 * i + 1] = v.y, out[3 * i + 2] = v.z;
-  }
-  return out;
-}
-
-// The surface in the caller's units, in one block.
+// The surface in the caller's units, in one block; half-written, and to be freed, where it fails
+// after the allocation.
 Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out);
 
 }  // namespace wireskin::api

@@ -23,8 +23,9 @@ struct Quad {
 
 }  // namespace
 
-static void relax_once(const Movable& mesh, Span<Vec3> normal, Span<Pull> pull) {
-  vertex_normals(mesh.position, mesh.triangle, normal);
+static Status relax_once(Context& context, const Movable& mesh, Span<Vec3> normal,
+                         Span<Pull> pull) {
+  TRY(vertex_normals(context, mesh.position, mesh.triangle, normal));
   for (Pull& p : pull) p = {Vec3{}, 0.0};
   for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
     const uint32_t* v = &mesh.triangle[t];
@@ -41,6 +42,7 @@ static void relax_once(const Movable& mesh, Span<Vec3> normal, Span<Pull> pull) 
     const Vec3 step = (1.0 / pull[v].area) * pull[v].sum - mesh.position[v];
     mesh.position[v] += 0.5 * reject(step, normal[v]);
   }
+  return {};
 }
 
 static Status relax(Context& context, const Movable& mesh) {
@@ -49,7 +51,7 @@ static Status relax(Context& context, const Movable& mesh) {
   TRY(normal.resize(mesh.position.size()));
   TRY(pull.resize(mesh.position.size()));
   for (int sweep = 0; sweep < k_relax_sweeps; ++sweep) {
-    relax_once(mesh, normal.span(), pull.span());
+    TRY(relax_once(context, mesh, normal.span(), pull.span()));
     TRY(context.checkpoint());
   }
   return {};

@@ -1,5 +1,6 @@
 #include "mesh/crease_normals.h"
 
+#include "base/in_parts.h"
 #include "mesh/curvature.h"
 
 namespace wireskin::mesh {
@@ -92,8 +93,8 @@ Status find_crease_normals(Context& context, Span<const Vec3> positions,
   TRY(cut_open(vertices, triangles, twins.span(), crease.span(), &cut));
   TRY(place.resize(cut.vertices()));
   TRY(normal.resize(cut.vertices()));
-  for (uint32_t c = 0; c < cut.vertices(); ++c) place[c] = positions[cut.origin[c]];
-  vertex_normals(place.span(), cut.triangle.span(), normal.span());
+  TRY(in_parts(context, cut.vertices(), [&](size_t c) { place[c] = positions[cut.origin[c]]; }));
+  TRY(vertex_normals(context, place.span(), cut.triangle.span(), normal.span()));
   return corner_normals(cut, vertices, normal.span(), result);
 }
 

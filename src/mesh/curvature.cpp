@@ -1,12 +1,14 @@
 #include "mesh/curvature.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::mesh {
 
-void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
-                    Span<Vec3> normals) {
+Status vertex_normals(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                      Span<Vec3> normals) {
   for (Vec3& n : normals) n = Vec3{};
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
     // Edge k runs from corner k to the next one.
     const Vec3 edge[3] = {positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[1]],
                           positions[v[0]] - positions[v[2]]};
@@ -16,8 +18,8 @@ void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
       const double squares = square[k] * square[last];
       if (squares > 0.0) normals[v[k]] += (1.0 / squares) * cross(edge[k], -edge[last]);
     }
-  }
-  for (Vec3& n : normals) n = unit(n);
+  }));
+  return in_parts(context, normals.size(), [&](size_t v) { normals[v] = unit(normals[v]); });
 }
 
 namespace {
@@ -32,14 +34,14 @@ struct Mean {
 
 // One pass over the edges: vertices without a value take the mean of those neighbours that have
 // one.
-static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> known,
-                                 Span<Mean> mean, Span<double> values) {
+static Status fill_from_neighbours(Context& context, Span<const uint32_t> triangles,
+                                   Span<uint8_t> known, Span<Mean> mean, Span<double> values) {
   for (size_t v = 0; v < values.size(); ++v) {
     if (!known[v]) mean[v] = {0.0, 0};
   }
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
-    if (known[v[0]] == known[v[1]] && known[v[1]] == known[v[2]]) continue;  // nearly all
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
+    if (known[v[0]] == known[v[1]] && known[v[1]] == known[v[2]]) return;  // nearly all
     for (int k = 0; k < 3; ++k) {
       const uint32_t a = v[k], b = v[k == 2 ? 0 : k + 1];
       if (known[a] == known[b]) continue;
@@ -47,12 +49,13 @@ static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> k
       mean[to].sum += values[from];
       ++mean[to].count;
     }
-  }
+  }));
   for (size_t v = 0; v < values.size(); ++v) {
     if (known[v] || mean[v].count == 0) continue;
     values[v] = mean[v].sum / static_cast<double>(mean[v].count);
     known[v] = 1;
   }
+  return {};
 }
 
 Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const uint8_t> on_border,
@@ -65,9 +68,8 @@ Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const 
   TRY(known.resize(values.size()));
   TRY(mean.resize(values.size()));
   for (size_t v = 0; v < values.size(); ++v) known[v] = on_border[v] == 0;
-  fill_from_neighbours(triangles, known.span(), mean.span(), values);
-  fill_from_neighbours(triangles, known.span(), mean.span(), values);
-  return {};
+  TRY(fill_from_neighbours(context, triangles, known.span(), mean.span(), values));
+  return fill_from_neighbours(context, triangles, known.span(), mean.span(), values);
 }
 
 Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
@@ -78,8 +80,8 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
   Array<double> area(context);
   TRY(curvature->assign(n, 0.0));
   TRY(area.assign(n, 0.0));
-  for (uint32_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
     const Vec3 normal = unit(normals[v[0]] + normals[v[1]] + normals[v[2]]);
     const Vec3 cross_edges =
         cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
@@ -89,11 +91,11 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
       (*curvature)[v[k]] += dot(cross(normal, edge), normals[v[k]]);
       area[v[k]] += third;
     }
-  }
-  for (size_t v = 0; v < n; ++v) {
+  }));
+  TRY(in_parts(context, n, [&](size_t v) {
     const bool known = !on_border[v] && area[v] > 0.0;
     (*curvature)[v] = known ? (*curvature)[v] / (4.0 * area[v]) : 0.0;
-  }
+  }));
   return fill_border(context, triangles, on_border, curvature->span());
 }
 

@@ -16,7 +16,8 @@ namespace wireskin::mesh {
 
 // Unit normals from the triangles round each vertex, each weighted by the sine of its angle over
 // the product of its sides: exact where all vertices lie on a sphere.
-void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles, Span<Vec3> normals);
+Status vertex_normals(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                      Span<Vec3> normals);
 
 // H at every vertex. The star of a border vertex is not closed, so it takes the mean of its
 // neighbours inside (of its neighbours on the border, where all are).

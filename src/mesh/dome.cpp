@@ -119,7 +119,7 @@ Status raise_dome(Context& context, const Loops& loops, uint32_t held,
   Array<Vec3> normal(context);
   TRY(take_mesh(position, triangle, held, &bending));
   TRY(normal.resize(n));
-  vertex_normals(position, triangle, normal.span());
+  TRY(vertex_normals(context, position, triangle, normal.span()));
   const double curvature = normal_curvature(loops) * (loops.count() == 1 ? 1.0 : 0.5);
   for (uint32_t v = 0; v < n; ++v) {
     normal[v] = -2.0 * curvature * bending.weight[v] * (v < rim ? loops.normal[v] : normal[v]);

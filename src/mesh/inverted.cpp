@@ -52,6 +52,7 @@ static bool is_inverted(const FacedMesh& mesh, Span<const uint32_t> start,
 Status find_inverted(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                      Span<const uint32_t> patch, Inverted* inverted) {
   constexpr size_t k_work_per_checkpoint = 1u << 16;
+  constexpr uint32_t k_triangles_per_checkpoint = 1u << 15;
   const FacedMesh mesh = {position, triangle, patch};
   const uint32_t vertices = static_cast<uint32_t>(position.size());
   Array<uint32_t> twins(context), start(context), corner(context), candidate(context);
@@ -59,6 +60,7 @@ Status find_inverted(Context& context, Span<const Vec3> position, Span<const uin
   TRY(find_twins(vertices, triangle, &twins));
   for (uint32_t t = 0; t < triangle.size() / 3; ++t) {
     if (faces_a_neighbour(mesh, twins.span(), t)) TRY(candidate.push(t));
+    if (t % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
   }
   if (candidate.empty()) return {};
   TRY(find_corners(vertices, triangle, &start, &corner));

@@ -309,7 +309,8 @@ static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
   const uint32_t n = static_cast<uint32_t>(r->position->size());
   TRY(find_corners(n, r->triangle->span(), &stars->start, &stars->corner));
   TRY(stars->normal.resize(n));
-  vertex_normals(r->position->span(), r->triangle->span(), stars->normal.span());
+  TRY(vertex_normals(r->suspect.context(), r->position->span(), r->triangle->span(),
+                     stars->normal.span()));
   for (uint32_t v = r->rim; v < n; ++v) {
     const uint32_t first = stars->start[v];
     const Span<const uint32_t> star = stars->corner.span().part(first, stars->start[v + 1] - first);

@@ -1,5 +1,6 @@
 #include "mesh/measure.h"
 
+#include "base/in_parts.h"
 #include "mesh/curvature.h"
 #include "mesh/operators.h"
 #include "num/trig.h"
@@ -36,8 +37,8 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
   Array<double> area(context);
   TRY(curvature->assign(n, 2.0 * k_pi));
   TRY(area.assign(n, 0.0));
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
     const TriangleShape shape = triangle_shape(positions[v[0]], positions[v[1]], positions[v[2]]);
     const CornerAreas shares = mixed_voronoi_shares(shape);
     for (int k = 0; k < 3; ++k) {
@@ -45,19 +46,21 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
       // The cotangent of the angle is known: arctan2(1, cot) is the angle.
       (*curvature)[v[k]] -= arc_tangent(1.0, shape.cotangent[k]);
     }
-  }
-  for (size_t v = 0; v < n; ++v) {
+  }));
+  TRY(in_parts(context, n, [&](size_t v) {
     (*curvature)[v] = !on_border[v] && area[v] > 0.0 ? (*curvature)[v] / area[v] : 0.0;
-  }
+  }));
   return fill_border(context, triangles, on_border, curvature->span());
 }
 
-AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
+Status normal_deviation(Context& context, Span<const Vec3> normals, Span<const Vec3> given,
+                        AngleStatistics* deviation) {
   AngleSum sum;
-  for (size_t v = 0; v < normals.size(); ++v) {
+  TRY(in_parts(context, normals.size(), [&](size_t v) {
     if (dot(given[v], given[v]) > 0.0) sum.add(angle_between(normals[v], given[v]));
-  }
-  return sum.statistics();
+  }));
+  *deviation = sum.statistics();
+  return {};
 }
 
 Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
@@ -66,6 +69,7 @@ Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const 
   // Edges of curves have both ends on curves, and so have their triangles: the others are left out.
   Array<uint32_t> twins(context), corner(context), own_patch(context);
   for (size_t t = 0; 3 * t < triangles.size(); ++t) {
+    if (t % 65536 == 65535) TRY(context.checkpoint());
     const uint32_t* v = &triangles[3 * t];
     if (on_curve[v[0]] + on_curve[v[1]] + on_curve[v[2]] < 2) continue;
     for (size_t k = 0; k < 3; ++k) TRY(corner.push(v[k]));

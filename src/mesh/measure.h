@@ -20,7 +20,8 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
                           Span<const uint8_t> on_border, Array<double>* curvature);
 
 // The angle between a normal and the one given, over the vertices where the latter is not zero.
-AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given);
+Status normal_deviation(Context& context, Span<const Vec3> normals, Span<const Vec3> given,
+                        AngleStatistics* deviation);
 
 // The angle between the triangles on both sides of an edge, over the edges of curves: those whose
 // ends are both on curves and, where `divided` says that curves divide patches, that do so.

@@ -1,8 +1,11 @@
 #include "mesh/mesh.h"
 
+#include "base/in_parts.h"
 #include "num/trig.h"
 
 namespace wireskin::mesh {
+
+static constexpr size_t k_passed = 65536;  // triangles or vertices between two checkpoints
 
 static Status fail_triangle(const char* sentence, size_t triangle) {
   Place place;
@@ -16,7 +19,7 @@ static Status fail_vertex(const char* sentence, size_t vertex) {
   return fail(Code::bad_mesh, sentence, place);
 }
 
-static Status check_indices(uint32_t vertices, Span<const uint32_t> triangles) {
+static Status check_indices(Context& context, uint32_t vertices, Span<const uint32_t> triangles) {
   for (size_t t = 0; t < triangles.size() / 3; ++t) {
     const uint32_t a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
     if (a >= vertices || b >= vertices || c >= vertices) {
@@ -26,27 +29,28 @@ static Status check_indices(uint32_t vertices, Span<const uint32_t> triangles) {
                   place);
     }
     if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
+    if (t % k_passed == k_passed - 1) TRY(context.checkpoint());
   }
   return {};
 }
 
 Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
                     Array<uint32_t>* corner) {
+  Context& context = start->context();
   TRY(start->assign(size_t{vertices} + 1, 0));
   TRY(corner->resize(triangles.size()));
-  for (uint32_t v : triangles) ++(*start)[v];
+  TRY(in_parts(context, triangles.size(), [&](size_t h) { ++(*start)[triangles[h]]; }));
   starts_from_counts(start->span());
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h);
-  }
+  TRY(in_parts(context, triangles.size(),
+               [&](size_t h) { (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h); }));
   shift_starts_back(start->span());
   return {};
 }
 
 Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* twins) {
   if (triangles.size() >= k_none) return fail(Code::too_large, "too many triangles");
-  TRY(check_indices(vertices, triangles));
   Context& context = twins->context();
+  TRY(check_indices(context, vertices, triangles));
   Array<uint32_t> start(context), corner(context), leaving_to(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(leaving_to.assign(vertices, k_none));  // of each vertex: the half-edge to it from this one
@@ -67,7 +71,7 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
       (*twins)[arriving] = leaving_to[triangles[arriving]];
     }
     for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
-    if (v % 65536 == 65535) TRY(context.checkpoint());
+    if (v % k_passed == k_passed - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -78,19 +82,21 @@ static uint32_t root_of(Span<uint32_t> parent, uint32_t v) {
   return v;
 }
 
-static void find_components(Span<const uint32_t> triangles, Topology* topology) {
+static Status find_components(Context& context, Span<const uint32_t> triangles,
+                              Topology* topology) {
   const Span<uint32_t> parent = topology->component.span();
   for (uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    for (size_t k = 1; k < 3; ++k) {
-      const uint32_t a = root_of(parent, triangles[t]), b = root_of(parent, triangles[t + k]);
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    for (size_t h = 3 * t + 1; h < 3 * t + 3; ++h) {
+      const uint32_t a = root_of(parent, triangles[3 * t]), b = root_of(parent, triangles[h]);
       (a < b ? parent[b] : parent[a]) = a < b ? a : b;
     }
-  }
+  }));
   // Roots come before their members, so one pass replaces parents by component numbers.
   for (uint32_t v = 0; v < parent.size(); ++v) {
     parent[v] = parent[v] == v ? topology->components++ : parent[parent[v]];
   }
+  return {};
 }
 
 namespace {
@@ -105,20 +111,21 @@ struct Fan {
 
 }  // namespace
 
-static void find_fans(Span<const uint32_t> triangles, Span<const uint32_t> twins, Span<Fan> fans) {
+static Status find_fans(Context& context, Span<const uint32_t> triangles,
+                        Span<const uint32_t> twins, Span<Fan> fans) {
   for (Fan& fan : fans) fan = {0, 0, 0};
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
+  return in_parts(context, triangles.size(), [&](size_t h) {
     Fan& fan = fans[triangles[h]];
     const uint32_t border = twins[h] == k_none;
     ++fan.corners;
     fan.borders += border;
-    if (border != 0 || fan.borders == 0) fan.first = h;
-  }
+    if (border != 0 || fan.borders == 0) fan.first = static_cast<uint32_t>(h);
+  });
 }
 
 // Walks round every vertex from one of its corners (at a border vertex: from the border) and
 // compares the number of triangles met with those it has.
-static Status check_fans(Span<const uint32_t> twins, Span<const Fan> fans,
+static Status check_fans(Context& context, Span<const uint32_t> twins, Span<const Fan> fans,
                          Span<uint8_t> on_border) {
   for (size_t v = 0; v < fans.size(); ++v) {
     const Fan fan = fans[v];
@@ -132,6 +139,7 @@ static Status check_fans(Span<const uint32_t> twins, Span<const Fan> fans,
       return fail_vertex("the triangles round the vertex do not form one fan", v);
     }
     on_border[v] = fan.borders == 1;
+    if (v % k_passed == k_passed - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -159,32 +167,41 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
   TRY(fans.resize(vertices));
   TRY(topology->on_border.assign(vertices, 0));
   TRY(topology->component.resize(vertices));
-  find_fans(triangles, twins, fans.span());
-  TRY(check_fans(twins, fans.span(), topology->on_border.span()));
-  find_components(triangles, topology);
+  TRY(find_fans(context, triangles, twins, fans.span()));
+  TRY(check_fans(context, twins, fans.span(), topology->on_border.span()));
+  TRY(find_components(context, triangles, topology));
   TRY(count_loops(twins, context, &topology->boundary_loops));
-  for (uint32_t h = 0; h < twins.size(); ++h) topology->edges += twins[h] == k_none || h < twins[h];
+  TRY(in_parts(context, twins.size(),
+               [&](size_t h) { topology->edges += twins[h] == k_none || h < twins[h]; }));
   topology->euler_characteristic = static_cast<int32_t>(int64_t{vertices} - topology->edges +
                                                         static_cast<int64_t>(triangles.size() / 3));
   return {};
 }
 
-Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+Status check_areas(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles) {
   for (size_t t = 0; t < triangles.size(); t += 3) {
     const Vec3& a = positions[triangles[t]];
     const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
     if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
+    if (t / 3 % k_passed == k_passed - 1) TRY(context.checkpoint());
   }
   return {};
 }
 
+Status patches_of_vertices(Context& context, Span<const uint32_t> triangles,
+                           Span<const uint32_t> patch, Span<uint32_t> result) {
+  return in_parts(context, triangles.size(),
+                  [&](size_t h) { result[triangles[h]] = patch[h / 3]; });
+}
+
 // The smallest angle of a triangle has the largest cosine, so one arctangent at the end is enough.
-double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+Status least_angle(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                   double* degrees) {
   double greatest_cosine = -1.0;
   double angle = 0.0;
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const Vec3 at[3] = {positions[triangles[t]], positions[triangles[t + 1]],
-                        positions[triangles[t + 2]]};
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
+    const Vec3 at[3] = {positions[v[0]], positions[v[1]], positions[v[2]]};
     for (int k = 0; k < 3; ++k) {
       const Vec3 a = at[k == 2 ? 0 : k + 1] - at[k], b = at[k == 0 ? 2 : k - 1] - at[k];
       const double product = dot(a, b), squares = dot(a, a) * dot(b, b);
@@ -198,8 +215,9 @@ double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
       greatest_cosine = cosine;
       angle = angle_between(a, b);
     }
-  }
-  return angle * (180.0 / k_pi);
+  }));
+  *degrees = angle * (180.0 / k_pi);
+  return {};
 }
 
 }  // namespace wireskin::mesh

@@ -41,7 +41,7 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
                      Topology* topology);
 
 // Fails with bad_mesh and the triangle where one has no area.
-Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles);
+Status check_areas(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles);
 
 // The triangles round each vertex: those of v are corner[start[v] .. start[v + 1]), as half-edges
 // that leave v, in ascending order.
@@ -49,12 +49,11 @@ Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uin
                     Array<uint32_t>* corner);
 
 // The least angle of all triangles, in degrees.
-double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles);
+Status least_angle(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                   double* degrees);
 
 // For each vertex the patch of one of its triangles, given the patch of each triangle.
-inline void patches_of_vertices(Span<const uint32_t> triangles, Span<const uint32_t> patch,
-                                Span<uint32_t> result) {
-  for (size_t h = 0; h < triangles.size(); ++h) result[triangles[h]] = patch[h / 3];
-}
+Status patches_of_vertices(Context& context, Span<const uint32_t> triangles,
+                           Span<const uint32_t> patch, Span<uint32_t> result);
 
 }  // namespace wireskin::mesh

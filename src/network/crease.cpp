@@ -1,5 +1,6 @@
 #include "network/crease.h"
 
+#include "base/in_parts.h"
 #include "mesh/curvature.h"
 
 namespace wireskin::network {
@@ -114,13 +115,12 @@ Status cut_along_creases(const Network& network, const CurveVertices& vertices,
   return creased->on_border.copy(topology.on_border.span());
 }
 
-void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle) {
-  for (size_t c = 0; c < creased.position.size(); ++c) {
-    position[creased.cut.origin[c]] = creased.position[c];
-  }
-  for (size_t h = 0; h < triangle.size(); ++h) {
-    triangle[h] = creased.cut.origin[creased.cut.triangle[h]];
-  }
+Status merge_creases(Context& context, const CreasedMesh& creased, Span<Vec3> position,
+                     Span<uint32_t> triangle) {
+  TRY(in_parts(context, creased.position.size(),
+               [&](size_t c) { position[creased.cut.origin[c]] = creased.position[c]; }));
+  return in_parts(context, triangle.size(),
+                  [&](size_t h) { triangle[h] = creased.cut.origin[creased.cut.triangle[h]]; });
 }
 
 Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
@@ -131,32 +131,32 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Ve
   TRY(normal.resize(copies));
   TRY(count.assign(n, 0.0));
   const Span<const uint32_t> triangle = creased.cut.triangle.span();
-  mesh::vertex_normals(creased.position.span(), triangle, normal.span());
+  TRY(mesh::vertex_normals(context, creased.position.span(), triangle, normal.span()));
   TRY(mesh::mean_curvature(creased.position.span(), normal.span(), triangle,
                            creased.on_border.span(), &curvature));
   TRY(given.assign(copies, Vec3{}));
-  for (size_t v = 0; v < n; ++v) {
+  TRY(in_parts(context, n, [&](size_t v) {
     measures.normal[v] = measures.constraint_normal[v] = Vec3{};
     measures.mean_curvature[v] = 0.0;
-  }
-  for (size_t c = 0; c < copies; ++c) {
+  }));
+  TRY(in_parts(context, copies, [&](size_t c) {
     const uint32_t v = creased.cut.origin[c];
     measures.normal[v] += normal[c];
     measures.mean_curvature[v] += curvature[c];
     if (creased.held[c] && !creased.bare[c]) given[c] = given_normal[c];
     measures.constraint_normal[v] += given[c];
     count[v] += 1.0;
-  }
-  for (size_t v = 0; v < n; ++v) {
+  }));
+  TRY(in_parts(context, n, [&](size_t v) {
     // The sides of a knife's edge cancel out: then the first copy's normal stands for both.
     const bool cancels = measures.normal[v] == Vec3{};
     measures.normal[v] = unit(cancels ? normal[v] : measures.normal[v]);
     measures.mean_curvature[v] /= count[v];
     measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
-  }
+  }));
   TRY(mesh::corner_normals(creased.cut, static_cast<uint32_t>(n), normal.span(),
                            measures.crease_normals));
-  *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
+  TRY(mesh::normal_deviation(context, normal.span(), given.span(), measures.normal_deviation));
   return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
                                creased.held.span(), true, measures.dihedral);
 }

@@ -40,7 +40,8 @@ Status cut_along_creases(const Network& network, const CurveVertices& vertices,
                          Span<const Vec3> position, CreasedMesh* creased);
 
 // Brings positions and triangles back to the vertices of the uncut mesh.
-void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle);
+Status merge_creases(Context& context, const CreasedMesh& creased, Span<Vec3> position,
+                     Span<uint32_t> triangle);
 
 // Of each vertex of the uncut mesh.
 struct VertexMeasures {

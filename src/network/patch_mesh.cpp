@@ -1,5 +1,6 @@
 #include "network/patch_mesh.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "mesh/check.h"
 #include "mesh/inlay.h"
@@ -12,6 +13,8 @@
 #include "planar/polygon_mesh.h"
 
 namespace wireskin::network {
+
+static constexpr size_t k_triangles_per_checkpoint = 8192;
 
 namespace {
 
@@ -219,11 +222,13 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
     mesh->shape.push_reserved(mesh::triangle_shape(
         scratch.place[corner[0]], scratch.place[corner[1]], scratch.place[corner[2]]));
     TRY(note_chords(scratch, corner, static_cast<uint32_t>(first + t), patch, builder));
+    if (t % k_triangles_per_checkpoint == k_triangles_per_checkpoint - 1)
+      TRY(mesh->patch.context().checkpoint());
   }
-  for (const Vec3& p : scratch.inner) {
-    mesh->start.push_reserved(p);
+  TRY(in_parts(mesh->patch.context(), scratch.inner.size(), [&](size_t i) {
+    mesh->start.push_reserved(scratch.inner[i]);
     mesh->placed.push_reserved(scratch.spatial.raised);
-  }
+  }));
   const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
   if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
     return fail(Code::too_large, "the spacing is too small for the network");
@@ -314,11 +319,10 @@ static Status mesh_in_plane(const Plane& plane, double spacing, double least_fac
   const Array<Vec2>& points = scratch->planar.points;
   TRY(scratch->place.resize(points.size()));
   TRY(scratch->inner.resize(points.size() - n));
-  for (size_t i = 0; i < points.size(); ++i) {
+  return in_parts(scratch->place.context(), points.size(), [&](size_t i) {
     scratch->place[i] = {points[i].x, points[i].y, 0.0};
     if (i >= n) scratch->inner[i - n] = plane.lift(points[i]);
-  }
-  return {};
+  });
 }
 
 // Lets the mesh in space pass through the curves and points inside the patch.
@@ -398,6 +402,9 @@ static Status check_areas(const PatchScratch& scratch, Span<const uint32_t> tria
     const double longest2 = larger(dot(a, a), larger(dot(b, b), dot(c, c)));
     if (!(length(cross(a, b)) > k_least_area * longest2)) {
       return fail(Code::patch_folded, "the border of the patch encloses nothing");
+    }
+    if (t / 3 % k_triangles_per_checkpoint == k_triangles_per_checkpoint - 1) {
+      TRY(scratch.place.context().checkpoint());
     }
   }
   return {};

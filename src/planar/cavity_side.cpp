@@ -277,7 +277,7 @@ static Status reinsert_all(SideTriangles* side, bool* proved) {
   side->inner[0] = 4 * builder.fan[0];
   side->inner[first] = 4 * builder.fan[0] + 2;
   for (uint32_t i = 1; i < last - 1; ++i) {
-    if (i % 16384 == 0) TRY(side->points.context().checkpoint());
+    if (i % 4096 == 0) TRY(side->points.context().checkpoint());
     if (reinsert(side, &builder, builder.order[i])) continue;
     for (const uint32_t slot : builder.fan) TRY(builder.stack.push(4 * slot));
     TRY(settle(side, &builder));

@@ -1,5 +1,6 @@
 #include "planar/polygon_mesh.h"
 
+#include "base/in_parts.h"
 #include "num/minmax.h"
 #include "num/predicates.h"
 #include "planar/insertion_order.h"
@@ -73,6 +74,7 @@ static Status survey(const Triangulation& t, double spacing, Array<double>* size
   TRY(sizes->assign(count, spacing));
   TRY(obstacles->reserve(count));
   for (uint32_t v = k_box_corners; v < count; ++v) {
+    if (v % 4096 == 0) TRY(sizes->context().checkpoint());
     if (t.leaving[v] != k_none) TRY(survey_star(t, v, spacing, &(*sizes)[v], obstacles));
   }
   return {};
@@ -88,7 +90,7 @@ static Status insert_lattice(Span<const Vec2> lattice, double spacing, Triangula
   TRY(t->leaving.reserve(t->points.size() + lattice.size()));
   TRY(t->triangles.reserve(t->triangles.size() + 2 * lattice.size()));
   for (size_t i = 0; i < lattice.size(); ++i) {
-    if (i % 16384 == 0) TRY(t->points.context().checkpoint());
+    if (i % 4096 == 0) TRY(t->points.context().checkpoint());
     const Vec2 p = lattice[order[i]];
     const Location location = locate(t, p, t->hint, false);
     if (location.where != Where::inside && location.where != Where::on_edge) continue;
@@ -119,18 +121,20 @@ static Status fill_inside(const Region& region, double spacing, Triangulation* t
 }
 
 static Status copy_result(const Triangulation& t, Span<const Vec2> given, PolygonMesh* mesh) {
+  Context& context = mesh->points.context();
   size_t count = 0;
-  for (const Triangle& triangle : t.triangles) count += (triangle.flags & k_outside) == 0 ? 1u : 0u;
+  TRY(in_parts(context, t.triangles.size(),
+               [&](size_t i) { count += (t.triangles[i].flags & k_outside) == 0 ? 1u : 0u; }));
   TRY(mesh->points.resize(t.points.size() - k_box_corners));
   TRY(mesh->triangles.reserve(3 * count));
-  for (size_t i = 0; i < mesh->points.size(); ++i) {
+  TRY(in_parts(context, mesh->points.size(), [&](size_t i) {
     mesh->points[i] = i < given.size() ? given[i] : t.points[i + k_box_corners];
-  }
-  for (const Triangle& triangle : t.triangles) {
-    if ((triangle.flags & k_outside) != 0) continue;
+  }));
+  return in_parts(context, t.triangles.size(), [&](size_t i) {
+    const Triangle& triangle = t.triangles[i];
+    if ((triangle.flags & k_outside) != 0) return;
     for (const uint32_t v : triangle.vertex) mesh->triangles.push_reserved(v - k_box_corners);
-  }
-  return {};
+  });
 }
 
 static void hand_over(PolygonMesh* result, PolygonMesh* mesh) {

@@ -114,7 +114,7 @@ static Status insert_points(const Region& region, Span<const Vec2> points, Trian
   TRY(point_of.assign(count, k_none));  // of each vertex, the least of its points
   TRY(begin_box(points, t));
   for (uint32_t i = 0; i < count; ++i) {
-    if (i % 16384 == 0) TRY(t->points.context().checkpoint());
+    if (i % 4096 == 0) TRY(t->points.context().checkpoint());
     uint32_t vertex = k_none;
     TRY(insert_or_find(t, points[order[i]], &vertex));
     uint32_t* least = &point_of[vertex - k_box_corners];

@@ -167,7 +167,7 @@ static Status search_place(Triangulation* t, uint32_t vertex, bool* found) {
 // Searches better places for the free corners of poor triangles.
 static Status mend_triangles(Triangulation* t, const Mobility& mobility, bool* found) {
   for (uint32_t i = 0; i < t->triangles.size(); ++i) {
-    if (i % 16384 == 0) TRY(t->points.context().checkpoint());
+    if (i % 4096 == 0) TRY(t->points.context().checkpoint());
     const Triangle triangle = t->triangles[i];
     const uint32_t* v = triangle.vertex;
     if ((triangle.flags & k_outside) != 0 || mobility.rests(triangle)) continue;
@@ -198,7 +198,7 @@ Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, ui
   t->stack.clear();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (uint32_t v = first_free; v < count; ++v) {
-      if (v % 16384 == 0) TRY(context.checkpoint());
+      if (v % 4096 == 0) TRY(context.checkpoint());
       if (awake[v] != 0) TRY(relax_vertex(t, sizes, awake.span(), v));
     }
   }

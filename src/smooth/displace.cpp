@@ -347,7 +347,7 @@ Status MinimumVariation::order_unknowns(const DisplaceInput& input, const sparse
     if (displacement_[v] != k_none) vertex.push_reserved(v);
     vertex.push_reserved(v);
   }
-  mesh::patches_of_vertices(input.triangle, input.patch, patch.span());
+  TRY(mesh::patches_of_vertices(context_, input.triangle, input.patch, patch.span()));
   return sparse::nested_dissection(matrix, {vertex.span(), input.position, patch.span()}, order);
 }
 
@@ -397,7 +397,7 @@ Status MinimumVariation::solve_by_pairs(const DisplaceInput& input, const sparse
   if (!iterative_) {
     Array<uint32_t> patch(context_);
     TRY(patch.assign(input.position.size(), 0));
-    mesh::patches_of_vertices(input.triangle, input.patch, patch.span());
+    TRY(mesh::patches_of_vertices(context_, input.triangle, input.patch, patch.span()));
     const size_t n = input.position.size(), springs = system.rows.rows - 2 * n;
     TRY(pairs_.build({laplacian,
                       area,
@@ -422,7 +422,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
       solution(context_);
   sparse::Csc laplacian(context_), rows(context_);
   SplitMesh split(context_);
-  mesh::vertex_normals(input.position, input.triangle, normal);
+  TRY(mesh::vertex_normals(context_, input.position, input.triangle, normal));
   for (uint32_t v = 0; v < n; ++v) {
     if (input.on_curve[v] && !input.is_bare(v)) normal[v] = input.curve_normal[v];
   }

@@ -131,7 +131,8 @@ static Status put_in_place(const FairMesh& mesh, Placed* placed, FairMesh* fixed
   for (size_t v = 0; v < mesh.placed.size(); ++v) {
     if (mesh.placed[v]) mesh.position[v] = mesh.start[v];
   }
-  mesh::vertex_normals(mesh.position, mesh.triangle, placed->normal.span());
+  TRY(mesh::vertex_normals(placed->normal.context(), mesh.position, mesh.triangle,
+                           placed->normal.span()));
   for (size_t v = 0; v < mesh.placed.size(); ++v) {
     if (!mesh.placed[v]) continue;
     placed->on_curve[v] = placed->held[v] = 1;

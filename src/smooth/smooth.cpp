@@ -77,7 +77,7 @@ static Status estimate_bare_normals(Context& context, const Domain& domain, cons
     TRY(guided->system.factor(guided->weight.span(), penalty.span()));
     TRY(guided->system.solve({}, domain.soft.position, field.position, residual));
   }
-  mesh::vertex_normals(field.position, domain.triangle, normal.span());
+  TRY(mesh::vertex_normals(context, field.position, domain.triangle, normal.span()));
   for (size_t v = 0; v < normal.size(); ++v) {
     if (domain.bare[v]) field.normal[v] = normal[v];
   }

@@ -1,5 +1,7 @@
 #include "surface/constraints.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin {
 
 // Half the length of the curve edges at each vertex: how much of its curve a vertex stands for.
@@ -33,9 +35,10 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
   TRY(constraints->held.resize(n));
   bool any = false;
   for (double cutoff : set.soft) any = any || cutoff > 0.0;
-  for (size_t v = 0; v < n; ++v) {
+  Context& context = constraints->held.context();
+  TRY(in_parts(context, n, [&](size_t v) {
     constraints->on_curve[v] = constraints->held[v] = v < curve_vertices;
-  }
+  }));
   if (!any) return {};
   TRY(curve_shares(surface, &constraints->share));
   TRY(constraints->cutoff.assign(n, -1.0));
@@ -47,11 +50,10 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
     const double own = holds ? 0.0 : set.soft[curve];
     if (cutoff < 0.0 || own < cutoff) cutoff = own;
   }
-  for (size_t v = 0; v < n; ++v) {
+  return in_parts(context, n, [&](size_t v) {
     if (constraints->cutoff[v] < 0.0) constraints->cutoff[v] = 0.0;
     if (constraints->cutoff[v] > 0.0) constraints->held[v] = 0;
-  }
-  return {};
+  });
 }
 
 Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* constraints) {
@@ -59,33 +61,34 @@ Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* c
   const bool soft = set.soft > k_least_cutoff * spacing;
   TRY(constraints->on_curve.copy(set.constrained));
   TRY(constraints->held.assign(n, 0));
-  for (size_t v = 0; v < n; ++v) constraints->held[v] = set.constrained[v] != 0 && !soft;
-  if (!soft) return {};
   Context& context = constraints->share.context();
+  TRY(in_parts(context, n,
+               [&](size_t v) { constraints->held[v] = set.constrained[v] != 0 && !soft; }));
+  if (!soft) return {};
   Array<double> all(context);
   Array<uint32_t> count(context);
   TRY(constraints->cutoff.assign(n, 0.0));
   TRY(constraints->share.assign(n, 0.0));
   TRY(all.assign(n, 0.0));
   TRY(count.assign(n, 0));
-  for (uint32_t h = 0; h < set.triangle.size(); ++h) {
+  TRY(in_parts(context, set.triangle.size(), [&](size_t h) {
     // Inner edges are met twice, those of a border once; a quarter and a half of a length is near
     // enough.
-    const uint32_t a = set.triangle[h], b = set.triangle[mesh::next_half_edge(h)];
+    const uint32_t a = set.triangle[h];
+    const uint32_t b = set.triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
     const double edge = length(set.position[b] - set.position[a]);
     all[a] += edge;
     ++count[a];
-    if (!set.constrained[a] || !set.constrained[b]) continue;
+    if (!set.constrained[a] || !set.constrained[b]) return;
     constraints->share[a] += 0.5 * edge;
     constraints->share[b] += 0.5 * edge;
-  }
-  for (size_t v = 0; v < n; ++v) {
-    if (!set.constrained[v]) continue;
+  }));
+  return in_parts(context, n, [&](size_t v) {
+    if (!set.constrained[v]) return;
     constraints->cutoff[v] = set.soft;
     if (constraints->share[v] == 0.0)
       constraints->share[v] = all[v] / static_cast<double>(count[v]);
-  }
-  return {};
+  });
 }
 
 }  // namespace wireskin

@@ -1,5 +1,6 @@
 #include "surface/finish.h"
 
+#include "base/in_parts.h"
 #include "curves/distance.h"
 #include "mesh/curvature.h"
 #include "mesh/inverted.h"
@@ -34,12 +35,17 @@ Status count_inverted(Context& context, Surface* surface) {
 static Status measure(Context& context, Span<const uint8_t> on_border, Span<const uint8_t> on_curve,
                       Surface* surface) {
   TRY(context.enter(Stage::result));
-  for (const Vec3& p : surface->position) {
-    if (p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0) continue;
+  bool is_finite = true;
+  TRY(in_parts(context, surface->position.size(), [&](size_t v) {
+    const Vec3& p = surface->position[v];
+    is_finite = is_finite && p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0;
+  }));
+  if (!is_finite) {
     return fail(Code::not_positive_definite, "the solution of the linear system is not finite");
   }
   TRY(surface->normal.resize(surface->position.size()));
-  mesh::vertex_normals(surface->position.span(), surface->triangle.span(), surface->normal.span());
+  TRY(mesh::vertex_normals(context, surface->position.span(), surface->triangle.span(),
+                           surface->normal.span()));
   TRY(context.progress(0.3));
   TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
                            surface->triangle.span(), on_border, &surface->mean_curvature));
@@ -47,9 +53,10 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Span<cons
                                &surface->gaussian_curvature));
   TRY(context.progress(0.6));
   Counts* counts = &surface->counts;
-  counts->least_angle = mesh::least_angle(surface->position.span(), surface->triangle.span());
-  counts->normal_deviation =
-      mesh::deviation(surface->normal.span(), surface->constraint_normal.span());
+  TRY(mesh::least_angle(context, surface->position.span(), surface->triangle.span(),
+                        &counts->least_angle));
+  TRY(mesh::normal_deviation(context, surface->normal.span(), surface->constraint_normal.span(),
+                             &counts->normal_deviation));
   TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
                             surface->patch.span(), on_curve, !surface->curve_edge.empty(),
                             &counts->dihedral));
@@ -77,7 +84,8 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   Counts* counts = &surface->counts;
   Array<uint32_t> vertex_patch(context);
   TRY(vertex_patch.assign(piece.position.size(), 0));
-  mesh::patches_of_vertices(piece.triangle, surface->patch.span(), vertex_patch.span());
+  TRY(mesh::patches_of_vertices(context, piece.triangle, surface->patch.span(),
+                                vertex_patch.span()));
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
     const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve,    piece.held,
@@ -116,16 +124,17 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
 // Held vertices whose normal nobody knows, as points may be; empty where there are none.
 static Status find_bare(const Constraints& constraints, const Surface& surface,
                         Array<uint8_t>* bare) {
+  Context& context = bare->context();
   bool any = false;
-  for (size_t v = 0; !surface.curve_edge.empty() && v < surface.position.size(); ++v) {
+  if (surface.curve_edge.empty()) return {};
+  TRY(in_parts(context, surface.position.size(), [&](size_t v) {
     any = any || (constraints.held[v] && surface.constraint_normal[v] == Vec3{});
-  }
+  }));
   if (!any) return {};
   TRY(bare->resize(surface.position.size()));
-  for (size_t v = 0; v < bare->size(); ++v) {
+  return in_parts(context, bare->size(), [&](size_t v) {
     (*bare)[v] = constraints.held[v] && surface.constraint_normal[v] == Vec3{};
-  }
-  return {};
+  });
 }
 
 // Smooths the surface by the chosen method and measures the result.
@@ -162,10 +171,10 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   Array<Vec3> place(context);
   TRY(place.resize(copies));
   TRY(placed.resize(copies));
-  for (size_t c = 0; c < copies; ++c) {
+  TRY(in_parts(context, copies, [&](size_t c) {
     place[c] = start.position[creased->cut.origin[c]];
     placed[c] = start.placed.empty() ? 0 : start.placed[creased->cut.origin[c]];
-  }
+  }));
   TRY(on_curve.resize(copies));
   TRY(held.resize(copies));
   if (!constraints.cutoff.empty()) {
@@ -174,14 +183,14 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
     TRY(anchor.copy(creased->position.span()));
   }
   TRY(given_normal.copy(creased->normal.span()));
-  for (size_t c = 0; c < copies; ++c) {
+  TRY(in_parts(context, copies, [&](size_t c) {
     const uint32_t v = creased->cut.origin[c];
     on_curve[c] = constraints.on_curve[v];
     held[c] = constraints.held[v];
-    if (cutoff.empty()) continue;
+    if (cutoff.empty()) return;
     cutoff[c] = constraints.cutoff[v];
     share[c] = constraints.share[v];
-  }
+  }));
   const Workpiece piece = {
       creased->position.span(),
       creased->normal.span(),
@@ -194,7 +203,8 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       place.span(),
       placed.span()};
   TRY(apply_method(context, start, piece, method, surface));
-  network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
+  TRY(network::merge_creases(context, *creased, surface->position.span(),
+                             surface->triangle.span()));
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
               surface));
   return network::measure_sides(

@@ -163,7 +163,8 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   const size_t n = surface->position.size();
   TRY(context.enter(Stage::result));
   TRY(surface->normal.resize(n));
-  mesh::vertex_normals(surface->position.span(), surface->triangle.span(), surface->normal.span());
+  TRY(mesh::vertex_normals(context, surface->position.span(), surface->triangle.span(),
+                           surface->normal.span()));
   TRY(surface->mean_curvature.assign(n, 0.0));
   TRY(surface->gaussian_curvature.assign(n, 0.0));
   Array<uint8_t> on_curve(context);
@@ -171,8 +172,8 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
   TRY(mesh::find_crease_normals(context, surface->position.span(), surface->triangle.span(),
                                 on_curve.span(), &surface->crease_normals));
-  surface->counts.least_angle =
-      mesh::least_angle(surface->position.span(), surface->triangle.span());
+  TRY(mesh::least_angle(context, surface->position.span(), surface->triangle.span(),
+                        &surface->counts.least_angle));
   if (!measurable) return {};
   TRY(count_inverted(context, surface));
   TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
@@ -224,7 +225,8 @@ static Status count_opposed(Context& context, const Surface& surface, uint32_t* 
                             uint32_t* all) {
   Array<Vec3> normal(context);
   TRY(normal.resize(surface.position.size()));
-  mesh::vertex_normals(surface.position.span(), surface.triangle.span(), normal.span());
+  TRY(mesh::vertex_normals(context, surface.position.span(), surface.triangle.span(),
+                           normal.span()));
   *opposed = *all = 0;
   for (size_t v = 0; v < normal.size(); ++v) {
     const Vec3& wish = surface.constraint_normal[v];
@@ -349,9 +351,10 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   if (!status.ok() && status.code != Code::bad_mesh) return status;
   outcome->manifold = status.ok() && !surface->triangle.empty();
   count_flow(flow, reconstruction, settings, surface);
-  const bool measurable =
-      outcome->manifold &&
-      mesh::check_areas(surface->position.span(), surface->triangle.span()).ok();
+  const Status areas =
+      mesh::check_areas(context, surface->position.span(), surface->triangle.span());
+  if (!areas.ok() && areas.code != Code::bad_mesh) return areas;
+  const bool measurable = outcome->manifold && areas.ok();
   TRY(judge_mesh(context, settings, measurable, *surface, outcome));
   if (outcome->normals == NormalsUse::none && !settings.normal.empty()) {
     TRY(try_to_smooth(context, topology, offset.span(), settings.method, surface, outcome));

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/mesh.h"
 #include "support/context.h"
 
 namespace unit {
@@ -141,6 +142,13 @@ inline Mesh tube(uint32_t around, uint32_t rows, double height, bool closed) {
     }
   }
   return mesh;
+}
+
+inline double least_angle_of(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+  Heap heap;
+  double degrees = 0.0;
+  must(wireskin::mesh::least_angle(heap.context, positions, triangles, &degrees));
+  return degrees;
 }
 
 }  // namespace unit

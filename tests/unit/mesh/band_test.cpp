@@ -74,7 +74,7 @@ void check_annulus(Heap& heap, const Ends& ends, const LoopMesh& mesh) {
     CHECK(w == loops.next(v < ends.start[1] ? 0 : 1, v));
   }
   CHECK(border == ends.position.size());
-  CHECK(mesh::least_angle({all.data(), all.size()}, mesh.triangle.span()) > 1.0);
+  CHECK(least_angle_of({all.data(), all.size()}, mesh.triangle.span()) > 1.0);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ struct Tube {
     for (size_t i = 0; i < 80; ++i) CHECK(position[i] == rim[i]);
     for (size_t i = 0; i < point.size(); ++i) CHECK(position[80 + i] == point[i]);
     for (size_t e = 0; e < edge.size(); e += 2) CHECK(edges.count({edge[e], edge[e + 1]}) == 1);
-    CHECK(mesh::least_angle(position.span(), triangle.span()) > 3.0);
+    CHECK(least_angle_of(position.span(), triangle.span()) > 3.0);
   }
 };
 

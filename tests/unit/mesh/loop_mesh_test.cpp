@@ -107,7 +107,7 @@ void check_disc(size_t rim, const Figures& f) {
   }
   CHECK(border == rim);
   CHECK(wrong == 0);
-  CHECK(mesh::check_areas({f.position.data(), f.position.size()}, triangles).ok());
+  CHECK(mesh::check_areas(context, {f.position.data(), f.position.size()}, triangles).ok());
 }
 
 Figures run(const Loop& loop, double spacing = 0.0) {

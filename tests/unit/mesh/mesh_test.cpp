@@ -204,8 +204,9 @@ TEST_CASE("mesh: a vertex of any valence costs linear time") {
 TEST_CASE("mesh: triangles without area") {
   const std::vector<Vec3> position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
   const std::vector<uint32_t> good = {0, 1, 2}, flat = {0, 1, 2, 0, 1, 3};
-  CHECK(check_areas(view(position), view(good)).ok());
-  const Status s = check_areas(view(position), view(flat));
+  Heap heap;
+  CHECK(check_areas(heap.context, view(position), view(good)).ok());
+  const Status s = check_areas(heap.context, view(position), view(flat));
   CHECK(s.code == Code::bad_mesh);
   CHECK(s.place.triangle == 1);
 }
@@ -215,7 +216,7 @@ TEST_CASE("mesh: least angles") {
   const std::vector<Vec3> position = {{0, 0, 0},    {1, 0, 0},          {0, 1, 0},
                                       {root, 0, 0}, {.5, .5 * root, 0}, {1000, 1, 0}};
   const auto angle = [&](const std::vector<uint32_t>& t) {
-    return least_angle(view(position), view(t));
+    return least_angle_of(view(position), view(t));
   };
   CHECK(angle({0, 1, 2}) == doctest::Approx(45.0).epsilon(1e-15));
   CHECK(angle({0, 3, 2}) == doctest::Approx(30.0).epsilon(1e-14));
