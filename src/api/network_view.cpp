@@ -216,16 +216,17 @@ Status make_network(Context& context, const network::Wires& wires,
   handle->bytes = layout.bytes;
   handle->least_fresh = numbers.least_fresh;
   handle->most_fresh = numbers.most_fresh;
+  *out = handle;
   wsk_network_view& view = handle->view;
   view = {};
   view.size = sizeof view;
   view.curve_count = wires.curves();
   view.sample_count = wires.samples();
-  write_vectors(block, layout.positions, wires.position.span(), lengths);
+  const double* positions = nullptr;  // the curves point into them
+  TRY(write_vectors(context, wires.position.span(), lengths, block + layout.positions, &positions));
   write_samples(wires, numbers, layout, given, block, &view);
   view.curves = write_curves(wires, layout, block);
   write_events(result, lengths, layout, block, &view);
-  *out = handle;
   return context.progress(1.0);
 }
 

@@ -1,7 +1,5 @@
 #include "api/view.h"
 
-#include "base/in_parts.h"
-
 namespace wireskin::api {
 
 // Where the arrays of a surface's view stand in its block.
@@ -45,16 +43,6 @@ static const uint32_t* write_indices(unsigned char* block, size_t offset,
   if (values.empty()) return nullptr;
   std::memcpy(block + offset, values.data(), values.size() * sizeof(uint32_t));
   return reinterpret_cast<const uint32_t*>(block + offset);
-}
-
-static Status write_vectors(Context& context, Span<const Vec3> values, const Scale& scale,
-                            unsigned char* place, const double** vectors) {
-  double* out = reinterpret_cast<double*>(place);
-  *vectors = out;
-  return in_parts(context, values.size(), [&](size_t i) {
-    const Vec3 v = scale(values[i]);
-    out[3 * i] = v.x, out[3 * i + 1] = v.y, out[3 * i + 2] = v.z;
-  });
 }
 
 static Status write_curvatures(Context& context, const Surface& surface,

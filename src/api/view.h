@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "api/options.h"
+#include "base/in_parts.h"
 #include "surface.h"
 
 struct wsk_surface {
@@ -42,6 +43,16 @@ void fill_view(const Handle* handle, View* view, size_t size) {
   if (size < sizeof view->size) return;
   if (handle != nullptr) std::memcpy(view, &handle->view, least(size, sizeof *view));
   view->size = size;
+}
+
+inline Status write_vectors(Context& context, Span<const Vec3> values, const Scale& scale,
+                            unsigned char* place, const double** vectors) {
+  double* out = reinterpret_cast<double*>(place);
+  *vectors = out;
+  return in_parts(context, values.size(), [&](size_t i) {
+    const Vec3 v = scale(values[i]);
+    out[3 * i] = v.x, out[3 * i + 1] = v.y, out[3 * i + 2] = v.z;
+  });
 }
 
 // The surface in the caller's units, in one block; half-written, and to be freed, where it fails
