@@ -102,6 +102,7 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   view.vertex_curve = write_indices(block, layout.vertex_curve, surface.vertex_curve);
   TRY(context.checkpoint());
   view.triangles = write_indices(block, layout.triangle, surface.triangle);
+  TRY(context.checkpoint());
   view.triangle_patch = write_indices(block, layout.patch, surface.patch);
   view.curve_edges = write_indices(block, layout.edges, surface.curve_edge);
   view.curve_edge_curve = write_indices(block, layout.edge_curve, surface.curve_edge_curve);

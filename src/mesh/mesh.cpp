@@ -5,7 +5,7 @@
 
 namespace wireskin::mesh {
 
-static constexpr size_t k_passed = 65536;  // triangles or vertices between two checkpoints
+static constexpr size_t k_passed = 16384;  // triangles or vertices between two checkpoints
 
 static Status fail_triangle(const char* sentence, size_t triangle) {
   Place place;

@@ -1,5 +1,6 @@
 #include "planar/insertion_order.h"
 
+#include "base/in_parts.h"
 #include "num/minmax.h"
 
 namespace wireskin::planar {
@@ -57,7 +58,10 @@ static Status sort_by_digits(Array<OrderKey>* keys, int bits) {
     for (uint32_t& start : starts) start = 0;
     for (const OrderKey& key : *keys) ++starts[digit(key)];
     starts_from_counts(starts.span());
-    for (const OrderKey& key : *keys) other[starts[digit(key)]++] = key;
+    TRY(in_parts(keys->context(), keys->size(), [&](size_t i) {
+      const OrderKey& key = (*keys)[i];
+      other[starts[digit(key)]++] = key;
+    }));
     Array<OrderKey> sorted = static_cast<Array<OrderKey>&&>(other);
     other = static_cast<Array<OrderKey>&&>(*keys);
     *keys = static_cast<Array<OrderKey>&&>(sorted);
@@ -86,12 +90,13 @@ static Status sort_by_cells(Span<const Vec2> points, int hilbert_bits, uint64_t 
   const double extent = larger(high.x - low.x, high.y - low.y);
   const double cells = static_cast<double>((1u << hilbert_bits) - 1);
   const double step = extent > 0.0 ? cells / extent : 0.0;
-  for (uint32_t i = 0; i < points.size(); ++i) {
+  TRY(in_parts(keys->context(), points.size(), [&](size_t p) {
+    const uint32_t i = static_cast<uint32_t>(p);
     const Vec2 cell = step * (points[i] - low);
     const uint64_t place =
         hilbert_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y), hilbert_bits);
     (*keys)[i] = {insertion_round(i, last_round) << (2 * hilbert_bits) | place, i};
-  }
+  }));
   int bits = 2 * hilbert_bits;
   for (uint64_t round = last_round; round > 0; round >>= 1) ++bits;
   return sort_by_digits(keys, bits);
@@ -115,8 +120,7 @@ Status insertion_order(Span<const Vec2> points, Array<uint32_t>* order) {
   if (longest_run(keys.span()) > k_crowd) {
     TRY(sort_by_cells(points, k_most_hilbert_bits, last_round, &keys));
   }
-  for (size_t i = 0; i < count; ++i) (*order)[i] = keys[i].index;
-  return {};
+  return in_parts(order->context(), count, [&](size_t i) { (*order)[i] = keys[i].index; });
 }
 
 }  // namespace wireskin::planar
