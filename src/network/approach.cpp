@@ -1,6 +1,8 @@
 #include "network/approach.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "network/box_tree.h"
+#include "num/minmax.h"
 
 namespace wireskin::network {
 
@@ -168,120 +170,15 @@ WirePlace nearest_on_edge(const Wires& wires, uint32_t curve, uint32_t i, const 
   return {wires.next(curve, i), 0.0};
 }
 
-// ---- The grid -----------------------------------------------------------------------------------
-
-struct CellEntry {
-  uint64_t cell;
-  uint32_t edge;
-};
-
-struct EdgePair {
-  uint32_t a, b;
-};
-
-struct Grid {
-  Vec3 low;
-  double cell;
-
-  uint64_t index(double x, double origin) const {
-    const double steps = (x - origin) / cell;
-    constexpr double k_last = 2097151.0;  // three times 21 bits
-    return static_cast<uint64_t>(steps > 0.0 ? (steps < k_last ? steps : k_last) : 0.0);
-  }
-  static uint64_t key(uint64_t x, uint64_t y, uint64_t z) { return x << 42 | y << 21 | z; }
-};
-
-// Puts an edge into every cell within `radius` of its pieces, none of which is longer than a cell.
-static Status enter_edge(const Grid& grid, const Vec3& p, const Vec3& q, double radius,
-                         uint32_t edge, Array<CellEntry>* entries) {
-  const double pieces_needed = length(q - p) / grid.cell;
-  const uint32_t pieces = 1 + static_cast<uint32_t>(pieces_needed < 4e9 ? pieces_needed : 4e9);
-  for (uint32_t k = 0; k < pieces; ++k) {
-    const Vec3 a = p + (static_cast<double>(k) / pieces) * (q - p);
-    const Vec3 b = p + (static_cast<double>(k + 1) / pieces) * (q - p);
-    const auto low = [&](double u, double v, double o) {
-      return grid.index((u < v ? u : v) - radius, o);
-    };
-    const auto high = [&](double u, double v, double o) {
-      return grid.index((u > v ? u : v) + radius, o);
-    };
-    for (uint64_t x = low(a.x, b.x, grid.low.x); x <= high(a.x, b.x, grid.low.x); ++x) {
-      for (uint64_t y = low(a.y, b.y, grid.low.y); y <= high(a.y, b.y, grid.low.y); ++y) {
-        for (uint64_t z = low(a.z, b.z, grid.low.z); z <= high(a.z, b.z, grid.low.z); ++z) {
-          TRY(entries->push({Grid::key(x, y, z), edge}));
-        }
-      }
-    }
-  }
-  return {};
-}
-
 // How far the cubic of an edge leaves its chord, about.
 static double bulge_of_edge(const Wires& wires, uint32_t curve, uint32_t i) {
   const EdgeCubic cubic = cubic_of_edge(wires, curve, i);
   return 1.5 * length(cubic.at(0.5) - 0.5 * (cubic.from + cubic.to));
 }
 
-static Grid grid_of(const Wires& wires, const EdgeSet& edges, double reach, double bulge) {
-  Grid grid = {wires.position[0], 0.0};
-  double sum = 0.0;
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    const Vec3& p = wires.position[i];
-    Vec3& low = grid.low;
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
-    const uint32_t j = edges.next(i);
-    if (j == k_none) continue;
-    sum += length(wires.position[j] - p);
-    ++count;
-  }
-  const double mean = count > 0 ? sum / count : 0.0;
-  const double widest = reach + 2.0 * bulge;
-  grid.cell = mean > widest ? mean : widest;
-  constexpr double k_least = 1.0 / 1048576.0;  // the extent is about one, an index has 21 bits
-  if (!(grid.cell > k_least)) grid.cell = k_least;
-  return grid;
-}
-
-// Pairs of edges that share a cell, each once.
-static Status pairs_of_cells(Array<CellEntry>* entries, Array<EdgePair>* pairs) {
-  Context& context = entries->context();
-  sort(entries->span(), [](const CellEntry& x, const CellEntry& y) {
-    return x.cell != y.cell ? x.cell < y.cell : x.edge < y.edge;
-  });
-  size_t kept = 0;  // pieces of one edge may share a cell
-  for (const CellEntry& entry : *entries) {
-    const CellEntry* last = kept > 0 ? &(*entries)[kept - 1] : nullptr;
-    if (last != nullptr && last->cell == entry.cell && last->edge == entry.edge) continue;
-    (*entries)[kept++] = entry;
-  }
-  entries->shrink(kept);
-  for (size_t first = 0, end = 0; first < entries->size(); first = end) {
-    while (end < entries->size() && (*entries)[end].cell == (*entries)[first].cell) ++end;
-    for (size_t i = first; i < end; ++i) {
-      for (size_t k = i + 1; k < end; ++k) {
-        TRY(pairs->push({(*entries)[i].edge, (*entries)[k].edge}));
-      }
-      if (i % 256 == 255) TRY(context.checkpoint());
-    }
-  }
-  const auto less = [](const EdgePair& x, const EdgePair& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  };
-  sort(pairs->span(), less);
-  kept = 0;  // and edges several cells
-  for (const EdgePair& pair : *pairs) {
-    if (kept > 0 && !less((*pairs)[kept - 1], pair)) continue;
-    (*pairs)[kept++] = pair;
-  }
-  pairs->shrink(kept);
-  return {};
-}
-
-static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, double reach,
-                           const EdgePair& pair, Array<Approach>* approaches) {
+static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, double reach, uint32_t a,
+                           uint32_t b, Array<Approach>* approaches) {
   const Wires& wires = edges.wires;
-  const uint32_t a = pair.a, b = pair.b;
   if (edges.share_a_sample(a, b)) return {};
   ChordApproach chords = edges.chords(a, b);
   if (!(chords.distance <= reach + bulge[a] + bulge[b])) return {};
@@ -297,35 +194,61 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
   found.at_a = point_of_place(wires, edges.curve[a], found.a);
   found.at_b = point_of_place(wires, edges.curve[b], found.b);
   found.distance = length(found.at_a - found.at_b);
+  // Drawings have less than one, with every line drawn many times a few.
+  constexpr size_t k_most_for_a_sample = 16, k_always = 1024;
+  if (approaches->size() > k_most_for_a_sample * wires.samples() + k_always) {
+    return fail(Code::bad_argument,
+                "the curves come within the snapping tolerance of each other in too many places: "
+                "give a smaller one");
+  }
   return approaches->push(found);
+}
+
+// Rounding must not part boxes of edges that just reach each other.
+static Vec3 widened(const Vec3& p, double margin) {
+  constexpr double k_rounding = 1e-15;
+  const double own = (1.0 + 1e-9) * margin, sign = margin < 0.0 ? -k_rounding : k_rounding;
+  return {p.x + own + sign * std::fabs(p.x), p.y + own + sign * std::fabs(p.y),
+          p.z + own + sign * std::fabs(p.z)};
+}
+
+static Box box_of_edge(const Vec3& p, const Vec3& q, double margin) {
+  const Vec3 low = {smaller(p.x, q.x), smaller(p.y, q.y), smaller(p.z, q.z)};
+  const Vec3 high = {larger(p.x, q.x), larger(p.y, q.y), larger(p.z, q.z)};
+  return {widened(low, -margin), widened(high, margin)};
 }
 
 Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double reach,
                        Array<Approach>* approaches) {
+  constexpr size_t k_work_per_checkpoint = 4096;
   Context& context = wires.position.context();
   const EdgeSet edges = {wires, curve};
   Array<double> bulge(context);
-  Array<CellEntry> entries(context);
-  Array<EdgePair> pairs(context);
+  Array<Box> box(context);
+  Array<uint32_t> sample(context), near(context);
+  BoxTree tree(context);
   TRY(bulge.assign(wires.samples(), 0.0));
-  double greatest = 0.0;
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    if (edges.next(i) == k_none) continue;
+  TRY(box.reserve(wires.samples()));
+  TRY(sample.reserve(wires.samples()));
+  TRY(in_parts(context, wires.samples(), [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s), next = edges.next(i);
+    if (next == k_none) return;
     bulge[i] = bulge_of_edge(wires, curve[i], i);
-    greatest = bulge[i] > greatest ? bulge[i] : greatest;
-  }
-  const Grid grid = grid_of(wires, edges, reach, greatest);
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    if (edges.next(i) == k_none) continue;
-    TRY(enter_edge(grid, wires.position[i], wires.position[edges.next(i)], 0.5 * reach + bulge[i],
-                   i, &entries));
-    if (i % 4096 == 4095) TRY(context.checkpoint());
-  }
-  TRY(pairs_of_cells(&entries, &pairs));
-  entries.free();
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    TRY(compare_pair(edges, bulge.span(), reach, pairs[k], approaches));
-    if (k % 4096 == 4095) TRY(context.checkpoint());
+    const double margin = 0.5 * reach + bulge[i];
+    box.push_reserved(box_of_edge(wires.position[i], wires.position[next], margin));
+    sample.push_reserved(i);
+  }));
+  TRY(tree.build(box.span()));
+  size_t work = 0;
+  for (uint32_t e = 0; e < box.size(); ++e) {
+    TRY(tree.find(box[e], e, &near));
+    for (const uint32_t other : near) {
+      TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
+    }
+    work += 8 + near.size();
+    if (work < k_work_per_checkpoint) continue;
+    work = 0;
+    TRY(context.checkpoint());
   }
   return {};
 }

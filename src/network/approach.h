@@ -1,10 +1,11 @@
 // Where curves come near each other: all places where the distance between two stretches of curve
 // has a local minimum of at most a given reach.
 //
-// In: curves. Out: pairs of places with their distance. Edges are found by a uniform grid, compared
-// as straight lines, and the places then refined on local cubics, because between coarse samples
-// curves that meet pass each other's chords at the height of the arc. Cost: near linear in samples
-// as long as few curves share a cell; the grid's cells are no smaller than the mean edge.
+// In: curves. Out: pairs of places with their distance. Edges are found by a tree of boxes,
+// compared as straight lines, and the places then refined on local cubics, because between coarse
+// samples curves that meet pass each other's chords at the height of the arc. O(n log n) for n
+// samples, and what is within reach; fails with bad_argument where that is many times as much as
+// there are samples.
 #pragma once
 
 #include "network/wires.h"

@@ -213,6 +213,63 @@ TEST_CASE("bad input is named") {
   CHECK(view.curve_count == 0);
 }
 
+namespace {
+
+// Lines along both axes on a saddle, of `samples` each, as OBJ files have them: nothing but places.
+Scene crossing_lines(size_t samples) {
+  Scene scene;
+  for (int line = 0; line < 8; ++line) {
+    Curve curve;
+    for (size_t i = 0; i < samples; ++i) {
+      const double x = -1.0 + 3.0 * double(i) / double(samples - 1), y = line % 4 - 1.0;
+      const double at[2] = {line < 4 ? x : y, line < 4 ? y : x};
+      const double z = (at[0] * at[0] - at[1] * at[1]) / 4;
+      curve.positions.insert(curve.positions.end(), {at[0], at[1], z});
+      curve.nodes.push_back(WSK_NONE);
+    }
+    scene.curves.push_back(curve);
+  }
+  return scene;
+}
+
+}  // namespace
+
+// A grid of cells as large as the mean edge would have all but one edge in one cell, and compare
+// each with each: beyond the cap.
+TEST_CASE("a position far out costs no more than any other") {
+  Scene scene = crossing_lines(2500);
+  Run run;
+  run.memory_cap = size_t{16} << 20;
+  REQUIRE(run(scenes::curves_of(scene)) == WSK_OK);
+  const uint32_t nodes = run.report.nodes;
+  CHECK(nodes == 16);
+  run.snap = 1e-6;
+  for (const double far : {1e3, 1e9}) {
+    scene.curves[5].positions[3 * 1250] = far;  // between the meetings with the other lines
+    CHECK(run(scenes::curves_of(scene)) == WSK_OK);
+    CHECK(run.report.nodes >= nodes);
+  }
+  scene.curves[5].positions[3 * 1250] = 1e302;  // beside this, all others are points
+  run.snap = 0.0;
+  CHECK(run(scenes::curves_of(scene)) == WSK_ERROR_ZERO_LENGTH_CURVE);
+  CHECK(run.report.curve == 0);
+}
+
+TEST_CASE("a tolerance that brings all near all is refused") {
+  Scene scene = crossing_lines(150);
+  for (Curve& curve : scene.curves) {
+    for (size_t i = 0; i < curve.size(); ++i)
+      curve.positions[3 * i + i % 3] += 0.01 * double(i % 7);
+  }
+  scene.curves[5].positions[3 * 75] = 1e3;
+  Run run;
+  run.snap = 50.0;
+  CHECK(run(scenes::curves_of(scene)) == WSK_ERROR_BAD_ARGUMENT);
+  CHECK(std::string(run.report.sentence).find("too many places") != std::string::npos);
+  run.snap = 0.01;
+  CHECK(run(scenes::curves_of(scene)) == WSK_OK);
+}
+
 TEST_CASE("degenerate curves are passed on, whatever they are") {
   const double points[] = {0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 0};
   for (size_t count = 1; count <= 6; ++count) {

@@ -1,0 +1,137 @@
+#include "network/box_tree.h"
+
+#include "base/sort.h"
+#include "num/minmax.h"
+
+namespace wireskin::network {
+
+static constexpr uint32_t k_boxes_of_a_leaf = 8;
+
+namespace {
+
+struct TreeRange {
+  uint32_t node, first, count;
+
+  bool is_leaf() const { return count <= k_boxes_of_a_leaf; }
+  TreeRange lower() const { return {2 * node + 1, first, count / 2}; }
+  TreeRange upper() const { return {2 * node + 2, first + count / 2, count - count / 2}; }
+};
+
+// Ranges to come: one at most for each level, and its sibling.
+struct RangeStack {
+  TreeRange range[64];
+  uint32_t size = 0;
+
+  void push(const TreeRange& r) { range[size++] = r; }
+  TreeRange pop() { return range[--size]; }
+};
+
+}  // namespace
+
+static bool boxes_meet(const Box& a, const Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+static Vec3 twice_centre(const Box& box) {
+  return box.low + box.high;
+}
+
+static double along(const Vec3& p, int axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+static void extend(const Box& more, Box* box) {
+  const Vec3 &low = more.low, &high = more.high;
+  box->low = {smaller(box->low.x, low.x), smaller(box->low.y, low.y), smaller(box->low.z, low.z)};
+  box->high = {larger(box->high.x, high.x), larger(box->high.y, high.y),
+               larger(box->high.z, high.z)};
+}
+
+Box BoxTree::bound(uint32_t first, uint32_t count) const {
+  Box box = boxes_[order_[first]];
+  for (uint32_t i = 1; i < count; ++i) extend(boxes_[order_[first + i]], &box);
+  return box;
+}
+
+// Hoare's selection (C. A. R. Hoare, "Algorithm 65: Find", 1961) of the median in the axis of the
+// greatest spread; equal places by index.
+void BoxTree::halve(uint32_t first, uint32_t count) {
+  Vec3 low = twice_centre(boxes_[order_[first]]), high = low;
+  for (uint32_t i = first; i < first + count; ++i) {
+    const Vec3 c = twice_centre(boxes_[order_[i]]);
+    low = {smaller(low.x, c.x), smaller(low.y, c.y), smaller(low.z, c.z)};
+    high = {larger(high.x, c.x), larger(high.y, c.y), larger(high.z, c.z)};
+  }
+  const Vec3 spread = high - low;
+  const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
+  const auto before = [&](uint32_t a, uint32_t b) {
+    const double x = along(twice_centre(boxes_[a]), axis), y = along(twice_centre(boxes_[b]), axis);
+    return x != y ? x < y : a < b;
+  };
+  int64_t from = first, to = int64_t{first} + count - 1;
+  const int64_t median = first + count / 2;
+  while (from < to) {
+    const uint32_t pivot = order_[static_cast<size_t>(from + (to - from) / 2)];
+    int64_t i = from, j = to;
+    while (i <= j) {
+      while (before(order_[static_cast<size_t>(i)], pivot)) ++i;
+      while (before(pivot, order_[static_cast<size_t>(j)])) --j;
+      if (i > j) break;
+      const uint32_t other = order_[static_cast<size_t>(i)];
+      order_[static_cast<size_t>(i++)] = order_[static_cast<size_t>(j)];
+      order_[static_cast<size_t>(j--)] = other;
+    }
+    if (j < median) from = i;
+    if (median < i) to = j;
+  }
+}
+
+Status BoxTree::build(Span<const Box> boxes) {
+  boxes_ = boxes;
+  const uint32_t count = static_cast<uint32_t>(boxes.size());
+  size_t nodes = 1;
+  for (uint32_t rest = count; rest > k_boxes_of_a_leaf; rest -= rest / 2) nodes = 2 * nodes + 1;
+  TRY(order_.resize(count));
+  TRY(node_.resize(nodes));
+  if (count == 0) return {};
+  for (uint32_t i = 0; i < count; ++i) order_[i] = i;
+  RangeStack todo;
+  todo.push({0, 0, count});
+  size_t work = 0;
+  while (todo.size > 0) {
+    const TreeRange range = todo.pop();
+    node_[range.node] = bound(range.first, range.count);
+    if (range.is_leaf()) continue;
+    halve(range.first, range.count);
+    todo.push(range.upper());
+    todo.push(range.lower());
+    if ((work += range.count) < 65536) continue;
+    work = 0;
+    TRY(order_.context().checkpoint());
+  }
+  return {};
+}
+
+Status BoxTree::find(const Box& box, uint32_t after, Array<uint32_t>* found) const {
+  found->clear();
+  RangeStack todo;
+  todo.push({0, 0, static_cast<uint32_t>(order_.size())});
+  while (todo.size > 0) {
+    const TreeRange range = todo.pop();
+    if (range.count == 0 || !boxes_meet(box, node_[range.node])) continue;
+    if (!range.is_leaf()) {
+      todo.push(range.upper());
+      todo.push(range.lower());
+      continue;
+    }
+    for (uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const uint32_t other = order_[i];
+      if (other > after && boxes_meet(box, boxes_[other])) TRY(found->push(other));
+    }
+  }
+  sort(found->span(), [](uint32_t a, uint32_t b) { return a < b; });
+  return {};
+}
+
+}  // namespace wireskin::network
