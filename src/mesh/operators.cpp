@@ -1,5 +1,7 @@
 #include "mesh/operators.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::mesh {
 
 // From the dot products of the edge vectors at each corner and twice the area.
@@ -20,11 +22,10 @@ TriangleShape triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c) {
 Status triangle_shapes(Span<const Vec3> positions, Span<const uint32_t> triangles,
                        Array<TriangleShape>* shapes) {
   TRY(shapes->resize(triangles.size() / 3));
-  for (size_t t = 0; t < shapes->size(); ++t) {
+  return in_parts(shapes->context(), shapes->size(), [&](size_t t) {
     (*shapes)[t] = triangle_shape(positions[triangles[3 * t]], positions[triangles[3 * t + 1]],
                                   positions[triangles[3 * t + 2]]);
-  }
-  return {};
+  });
 }
 
 void barycentric_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
@@ -48,13 +49,13 @@ CornerAreas mixed_voronoi_shares(const TriangleShape& shape) {
            mixed_voronoi_share(shape, 2)}};
 }
 
-void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
-                         Span<double> areas) {
-  for (double& a : areas) a = 0.0;
-  for (size_t t = 0; t < shapes.size(); ++t) {
+Status mixed_voronoi_areas(Context& context, Span<const uint32_t> triangles,
+                           Span<const TriangleShape> shapes, Span<double> areas) {
+  TRY(in_parts(context, areas.size(), [&](size_t v) { areas[v] = 0.0; }));
+  return in_parts(context, shapes.size(), [&](size_t t) {
     const CornerAreas shares = mixed_voronoi_shares(shapes[t]);
     for (size_t k = 0; k < 3; ++k) areas[triangles[3 * t + k]] += shares.at[k];
-  }
+  });
 }
 
 namespace {
