@@ -89,8 +89,8 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   Array<uint32_t> start(context), corner(context);
   ColumnUnderWay column(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(column.met.assign(vertices, k_none));
-  TRY(column.sum.assign(vertices, 0.0));
+  TRY(column.met.resize(vertices));
+  TRY(column.sum.resize(vertices));
   TRY(column.row.resize(size_t{vertices} + 1));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
@@ -103,6 +103,10 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   TRY(laplacian->value.reserve(room));
   laplacian->row.clear();
   laplacian->value.clear();
+  TRY(in_parts(context, vertices, [&](size_t v) {
+    column.met[v] = k_none;
+    column.sum[v] = 0.0;
+  }));
   for (uint32_t v = 0; v < vertices; ++v) {
     laplacian->start[v] = static_cast<uint32_t>(laplacian->row.size());
     // A column has its diagonal and at most two entries a triangle.
@@ -128,7 +132,7 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
     column.sum[v] = diagonal;
     TRY(sparse::append_column(column.row.span().part(0, column.count), column.sum.span(),
                               laplacian));
-    if (v % 16384 == 16383) TRY(context.checkpoint());
+    if (v % 8192 == 8191) TRY(context.checkpoint());
   }
   laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());
   return {};

@@ -160,6 +160,7 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
 static Status prepare_guard(Context& context, const FairMesh& mesh, uint32_t patches,
                             Guard* guard) {
   TRY(guard->position.copy(mesh.position));
+  TRY(context.checkpoint());
   TRY(guard->triangle.copy(mesh.triangle));
   TRY(guard->area.assign(patches, 0.0));
   TRY(guard->step.assign(patches, -1.0));
@@ -282,6 +283,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   Guard guard(context);
   Unfolded safe(context);
   TRY(safe.position.copy(mesh.position));
+  TRY(context.checkpoint());
   TRY(safe.triangle.copy(mesh.triangle));
   TRY(safe.folds.assign(patches, 0));
   TRY(safe.known.assign(patches, 0));

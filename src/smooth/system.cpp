@@ -173,6 +173,7 @@ Status System::factor(Span<const double> weight, Span<const double> penalty, boo
   TRY(context.enter(Stage::operators));
   TRY(weight_.copy(weight));
   TRY(penalty_.copy(penalty));
+  TRY(context.checkpoint());
   if (unknowns_ == 0) return {};
   if (order_ == Order::one) {
     TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, {}, &matrix_));
