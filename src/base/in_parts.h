@@ -10,12 +10,12 @@ namespace wireskin {
 template <class Body>
 Status in_parts(Context& context, size_t count, const Body& body) {
   constexpr size_t k_part = 4096;
-  size_t i = 0;
-  while (count - i >= k_part) {
-    for (const size_t end = i + k_part; i < end; ++i) body(i);
-    TRY(context.checkpoint());
+  // The body stands here once, so that the compiler makes one loop of it and not two.
+  for (size_t i = 0; i < count;) {
+    const bool whole = count - i >= k_part;
+    for (const size_t end = whole ? i + k_part : count; i < end; ++i) body(i);
+    if (whole) TRY(context.checkpoint());
   }
-  for (; i < count; ++i) body(i);
   return {};
 }
 

@@ -1,5 +1,6 @@
 #include "mesh/care.h"
 
+#include "base/in_parts.h"
 #include "mesh/curvature.h"
 
 namespace wireskin::mesh {
@@ -26,9 +27,9 @@ struct Quad {
 static Status relax_once(Context& context, const Movable& mesh, Span<Vec3> normal,
                          Span<Pull> pull) {
   TRY(vertex_normals(context, mesh.position, mesh.triangle, normal));
-  for (Pull& p : pull) p = {Vec3{}, 0.0};
-  for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
-    const uint32_t* v = &mesh.triangle[t];
+  TRY(in_parts(context, pull.size(), [&](size_t v) { pull[v] = {Vec3{}, 0.0}; }));
+  TRY(in_parts(context, mesh.triangle.size() / 3, [&](size_t t) {
+    const uint32_t* v = &mesh.triangle[3 * t];
     const Vec3 &a = mesh.position[v[0]], &b = mesh.position[v[1]], &c = mesh.position[v[2]];
     const double area = length(cross(b - a, c - a));
     const Vec3 weighted = area * ((1.0 / 3.0) * (a + b + c));
@@ -36,13 +37,12 @@ static Status relax_once(Context& context, const Movable& mesh, Span<Vec3> norma
       pull[v[k]].sum += weighted;
       pull[v[k]].area += area;
     }
-  }
-  for (size_t v = 0; v < pull.size(); ++v) {
-    if (mesh.held[v] || !(pull[v].area > 0.0)) continue;
+  }));
+  return in_parts(context, pull.size(), [&](size_t v) {
+    if (mesh.held[v] || !(pull[v].area > 0.0)) return;
     const Vec3 step = (1.0 / pull[v].area) * pull[v].sum - mesh.position[v];
     mesh.position[v] += 0.5 * reject(step, normal[v]);
-  }
-  return {};
+  });
 }
 
 static Status relax(Context& context, const Movable& mesh) {
@@ -186,48 +186,53 @@ static void flip_at_fold(const Movable& mesh, Span<uint32_t> twins, uint32_t h) 
 }
 
 // Marks the free vertices round the folds, and those `rings` further out in the same patch.
-static void mark_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds,
-                       uint32_t rings, Span<uint8_t> marked) {
+static Status mark_folds(Context& context, const Movable& mesh, Span<const uint32_t> twins,
+                         Span<uint32_t> folds, uint32_t rings, Span<uint8_t> marked) {
   for (uint8_t& m : marked) m = 0;
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (!is_fold(mesh, twins, h)) continue;
-    for (uint32_t k = 0; k < 3; ++k) marked[mesh.triangle[h / 3 * 3 + k]] = 1;
-  }
+  TRY(in_parts(context, twins.size(), [&](size_t h) {
+    if (!is_fold(mesh, twins, static_cast<uint32_t>(h))) return;
+    for (size_t k = 0; k < 3; ++k) marked[mesh.triangle[h / 3 * 3 + k]] = 1;
+  }));
   for (uint32_t ring = 1; ring <= rings; ++ring) {
-    for (size_t h = 0; h < mesh.triangle.size(); ++h) {
-      if (folds[mesh.patch[h / 3]] == 0 || marked[mesh.triangle[h]] != ring) continue;
+    TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
+      if (folds[mesh.patch[h / 3]] == 0 || marked[mesh.triangle[h]] != ring) return;
       for (size_t k = 0; k < 3; ++k) {
         uint8_t& m = marked[mesh.triangle[h / 3 * 3 + k]];
         if (m == 0) m = static_cast<uint8_t>(ring + 1);
       }
-    }
+    }));
   }
+  return {};
 }
 
-static void smooth_marked(const Movable& mesh, Span<const uint8_t> marked, Span<Pull> pull) {
-  for (Pull& p : pull) p = {Vec3{}, 0.0};
-  for (uint32_t h = 0; h < mesh.triangle.size(); ++h) {
+static Status smooth_marked(Context& context, const Movable& mesh, Span<const uint8_t> marked,
+                            Span<Pull> pull) {
+  TRY(in_parts(context, pull.size(), [&](size_t v) { pull[v] = {Vec3{}, 0.0}; }));
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
     // A free vertex has a triangle on each side of its edges, so this meets each neighbour once.
-    const uint32_t a = mesh.triangle[h], b = mesh.triangle[next_half_edge(h)];
+    const uint32_t a = mesh.triangle[h];
+    const uint32_t b = mesh.triangle[next_half_edge(static_cast<uint32_t>(h))];
     pull[a].sum += mesh.position[b];
     pull[a].area += 1.0;
-  }
-  for (size_t v = 0; v < pull.size(); ++v) {
-    if (!marked[v] || mesh.held[v]) continue;
+  }));
+  return in_parts(context, pull.size(), [&](size_t v) {
+    if (!marked[v] || mesh.held[v]) return;
     const Vec3 mean = (1.0 / pull[v].area) * pull[v].sum;
     mesh.position[v] += 0.5 * (mean - mesh.position[v]);
-  }
+  });
 }
 
-static uint32_t count_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds) {
-  uint32_t all = 0;
+// The folds of each patch, and `all` of them.
+static Status count_folds(Context& context, const Movable& mesh, Span<const uint32_t> twins,
+                          Span<uint32_t> folds, uint32_t* all) {
+  *all = 0;
   for (uint32_t& f : folds) f = 0;
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] < h || !is_fold(mesh, twins, h)) continue;
+  return in_parts(context, twins.size(), [&](size_t i) {
+    const uint32_t h = static_cast<uint32_t>(i);
+    if (twins[h] < h || !is_fold(mesh, twins, h)) return;
     ++folds[mesh.patch[h / 3]];
-    ++all;
-  }
-  return all;
+    ++*all;
+  });
 }
 
 Status unfold(Context& context, const Movable& mesh, Span<uint32_t> folds) {
@@ -235,20 +240,23 @@ Status unfold(Context& context, const Movable& mesh, Span<uint32_t> folds) {
   Array<uint8_t> marked(context);
   Array<Pull> pull(context);
   TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
-  if (count_folds(mesh, twins.span(), folds) == 0) return {};
+  uint32_t left = 0;
+  TRY(count_folds(context, mesh, twins.span(), folds, &left));
+  if (left == 0) return {};
   TRY(marked.resize(mesh.position.size()));
   TRY(pull.resize(mesh.position.size()));
   for (uint32_t sweep = 0; sweep < k_unfold_sweeps; ++sweep) {
-    for (uint32_t h = 0; h < twins.size(); ++h) {
+    TRY(in_parts(context, twins.size(), [&](size_t i) {
+      const uint32_t h = static_cast<uint32_t>(i);
       if (twins[h] > h && is_fold(mesh, twins.span(), h)) flip_at_fold(mesh, twins.span(), h);
-    }
-    if (count_folds(mesh, twins.span(), folds) == 0) break;
-    mark_folds(mesh, twins.span(), folds, sweep / k_sweeps_a_ring, marked.span());
-    smooth_marked(mesh, marked.span(), pull.span());
+    }));
+    TRY(count_folds(context, mesh, twins.span(), folds, &left));
+    if (left == 0) break;
+    TRY(mark_folds(context, mesh, twins.span(), folds, sweep / k_sweeps_a_ring, marked.span()));
+    TRY(smooth_marked(context, mesh, marked.span(), pull.span()));
     TRY(context.checkpoint());
   }
-  count_folds(mesh, twins.span(), folds);
-  return {};
+  return count_folds(context, mesh, twins.span(), folds, &left);
 }
 
 Status care(Context& context, const Movable& mesh, uint32_t* flips) {
@@ -258,11 +266,12 @@ Status care(Context& context, const Movable& mesh, uint32_t* flips) {
   TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
   for (int sweep = 0; sweep < k_flip_sweeps; ++sweep) {
     const uint32_t before = *flips;
-    for (uint32_t h = 0; h < twins.size(); ++h) {
-      if (!wants_flip(mesh, twins.span(), h)) continue;
+    TRY(in_parts(context, twins.size(), [&](size_t i) {
+      const uint32_t h = static_cast<uint32_t>(i);
+      if (!wants_flip(mesh, twins.span(), h)) return;
       flip(mesh.triangle, twins.span(), h);
       ++*flips;
-    }
+    }));
     TRY(context.checkpoint());
     if (*flips == before) break;
   }

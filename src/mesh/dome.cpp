@@ -64,13 +64,14 @@ struct Bending {
 static Status take_mesh(Span<const Vec3> position, Span<const uint32_t> triangle, uint32_t held,
                         Bending* bending) {
   const uint32_t n = static_cast<uint32_t>(position.size());
-  Array<TriangleShape> shape(bending->weight.context());
+  Context& context = bending->weight.context();
+  Array<TriangleShape> shape(context);
   TRY(triangle_shapes(position, triangle, &shape));
   TRY(cotangent_laplacian(n, triangle, shape.span(), &bending->laplacian));
   TRY(bending->weight.resize(n));
   TRY(bending->unknown.resize(n));
   TRY(bending->target.assign(n, Vec3{}));
-  mixed_voronoi_areas(triangle, shape.span(), bending->weight.span());
+  TRY(mixed_voronoi_areas(context, triangle, shape.span(), bending->weight.span()));
   for (uint32_t v = 0; v < n; ++v) bending->unknown[v] = v < held ? k_none : v - held;
   return {};
 }

@@ -1,5 +1,7 @@
 #include "mesh/operators.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::mesh {
 
 // From the dot products of the edge vectors at each corner and twice the area.
@@ -20,11 +22,10 @@ TriangleShape triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c) {
 Status triangle_shapes(Span<const Vec3> positions, Span<const uint32_t> triangles,
                        Array<TriangleShape>* shapes) {
   TRY(shapes->resize(triangles.size() / 3));
-  for (size_t t = 0; t < shapes->size(); ++t) {
+  return in_parts(shapes->context(), shapes->size(), [&](size_t t) {
     (*shapes)[t] = triangle_shape(positions[triangles[3 * t]], positions[triangles[3 * t + 1]],
                                   positions[triangles[3 * t + 2]]);
-  }
-  return {};
+  });
 }
 
 void barycentric_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
@@ -48,13 +49,13 @@ CornerAreas mixed_voronoi_shares(const TriangleShape& shape) {
            mixed_voronoi_share(shape, 2)}};
 }
 
-void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
-                         Span<double> areas) {
-  for (double& a : areas) a = 0.0;
-  for (size_t t = 0; t < shapes.size(); ++t) {
+Status mixed_voronoi_areas(Context& context, Span<const uint32_t> triangles,
+                           Span<const TriangleShape> shapes, Span<double> areas) {
+  TRY(in_parts(context, areas.size(), [&](size_t v) { areas[v] = 0.0; }));
+  return in_parts(context, shapes.size(), [&](size_t t) {
     const CornerAreas shares = mixed_voronoi_shares(shapes[t]);
     for (size_t k = 0; k < 3; ++k) areas[triangles[3 * t + k]] += shares.at[k];
-  }
+  });
 }
 
 namespace {
@@ -88,8 +89,8 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   Array<uint32_t> start(context), corner(context);
   ColumnUnderWay column(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(column.met.assign(vertices, k_none));
-  TRY(column.sum.assign(vertices, 0.0));
+  TRY(column.met.resize(vertices));
+  TRY(column.sum.resize(vertices));
   TRY(column.row.resize(size_t{vertices} + 1));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
@@ -102,6 +103,10 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   TRY(laplacian->value.reserve(room));
   laplacian->row.clear();
   laplacian->value.clear();
+  TRY(in_parts(context, vertices, [&](size_t v) {
+    column.met[v] = k_none;
+    column.sum[v] = 0.0;
+  }));
   for (uint32_t v = 0; v < vertices; ++v) {
     laplacian->start[v] = static_cast<uint32_t>(laplacian->row.size());
     // A column has its diagonal and at most two entries a triangle.
@@ -127,7 +132,7 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
     column.sum[v] = diagonal;
     TRY(sparse::append_column(column.row.span().part(0, column.count), column.sum.span(),
                               laplacian));
-    if (v % 16384 == 16383) TRY(context.checkpoint());
+    if (v % 8192 == 8191) TRY(context.checkpoint());
   }
   laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());
   return {};

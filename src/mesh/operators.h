@@ -31,8 +31,8 @@ void barycentric_areas(Span<const uint32_t> triangles, Span<const TriangleShape>
 
 // Voronoi areas, with those of obtuse triangles replaced by halves and quarters so that they stay
 // positive and add up to the area of the mesh.
-void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
-                         Span<double> areas);
+Status mixed_voronoi_areas(Context& context, Span<const uint32_t> triangles,
+                           Span<const TriangleShape> shapes, Span<double> areas);
 
 // What each corner of a triangle adds to those.
 struct CornerAreas {

@@ -1,5 +1,6 @@
 #include "smooth/arcs.h"
 
+#include "base/in_parts.h"
 #include "mesh/mesh.h"
 
 namespace wireskin::smooth {
@@ -27,9 +28,11 @@ struct CurveGraph {
 // Two vertices for each curve edge.
 static Status list_given_edges(Context& context, const GivenCurves& curves,
                                Array<uint32_t>* edges) {
+  constexpr uint32_t k_edges_per_checkpoint = 1u << 14;
   Array<uint32_t> twins(context);
   TRY(mesh::find_twins(static_cast<uint32_t>(curves.position.size()), curves.triangle, &twins));
   for (uint32_t h = 0; h < twins.size(); ++h) {
+    if ((h + 1) % k_edges_per_checkpoint == 0) TRY(context.checkpoint());
     const uint32_t g = twins[h];
     if (g != k_none && (g < h || curves.patch[g / 3] == curves.patch[h / 3])) continue;
     const uint32_t a = curves.triangle[h], b = curves.triangle[mesh::next_half_edge(h)];
@@ -57,15 +60,15 @@ static Status find_curve_graph(Context& context, const GivenCurves& curves, Curv
   TRY(graph->is_node.assign(n, 0));
   TRY(filled.assign(n, 0));
   for (uint32_t v : edges) ++graph->start[v + 1];
-  for (uint32_t v = 0; v < n; ++v) graph->start[v + 1] += graph->start[v];
-  for (size_t e = 0; e < edges.size(); ++e) {
+  TRY(in_parts(context, n, [&](size_t v) { graph->start[v + 1] += graph->start[v]; }));
+  TRY(in_parts(context, edges.size(), [&](size_t e) {
     const uint32_t v = edges[e];
     graph->neighbour[graph->start[v] + filled[v]++] = edges[e ^ 1];
-  }
-  for (uint32_t v = 0; v < n; ++v) {
-    graph->is_node[v] = filled[v] > 0 && !runs_through(curves.position, *graph, v);
-  }
-  return {};
+  }));
+  return in_parts(context, n, [&](size_t v) {
+    graph->is_node[v] =
+        filled[v] > 0 && !runs_through(curves.position, *graph, static_cast<uint32_t>(v));
+  });
 }
 
 Status find_arcs(Context& context, const GivenCurves& curves, uint32_t least_edges, Arcs* arcs) {

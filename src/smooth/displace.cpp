@@ -1,5 +1,6 @@
 #include "smooth/displace.h"
 
+#include "base/in_parts.h"
 #include "mesh/curvature.h"
 #include "mesh/mesh.h"
 #include "sparse/conjugate_gradients.h"
@@ -116,7 +117,8 @@ static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
   TRY(list_inner_edges(input, &inner));
   TRY(split->triangle.assign(input.triangle.size(), k_none));
   TRY(split->origin.reserve(input.triangle.size()));
-  for (uint32_t v = 0; v < n; ++v) {
+  TRY(in_parts(context, n, [&](size_t i) {
+    const uint32_t v = static_cast<uint32_t>(i);
     const Span<const uint32_t> fan = corner.span().part(start[v], start[v + 1] - start[v]);
     // A soft vertex has an unknown, whose column takes no row twice.
     const Span<const uint32_t> cuts = input.held[v] ? inner[v] : Span<const uint32_t>{};
@@ -133,38 +135,40 @@ static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
       walk_sector(input, fan, cuts, fan[k], true, split);
       walk_sector(input, fan, cuts, fan[k], false, split);
     }
-  }
+  }));
   split->vertices = static_cast<uint32_t>(split->origin.size());
   return {};
 }
 
 static Status add_rim_conormals(SplitMesh* split) {
-  Array<uint32_t> twins(split->origin.context());
+  Context& context = split->origin.context();
+  Array<uint32_t> twins(context);
   TRY(mesh::find_twins(split->vertices, split->triangle.span(), &twins));
   TRY(split->conormal.assign(split->vertices, Vec3{}));
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] != k_none) continue;
-    const uint32_t a = split->triangle[h], b = split->triangle[mesh::next_half_edge(h)];
+  return in_parts(context, twins.size(), [&](size_t h) {
+    if (twins[h] != k_none) return;
+    const uint32_t next = mesh::next_half_edge(static_cast<uint32_t>(h));
+    const uint32_t a = split->triangle[h], b = split->triangle[next];
     const Vec3 edge = split->position[b] - split->position[a];
     const Vec3 half = 0.5 * cross(edge, unit(split->normal[a] + split->normal[b]));
     split->conormal[a] += half;
     split->conormal[b] += half;
-  }
-  return {};
+  });
 }
 
 static Status make_split_mesh(const DisplaceInput& input, Span<const Vec3> normal,
                               Span<const mesh::TriangleShape> shapes, SplitMesh* split) {
+  Context& context = split->origin.context();
   TRY(split_along_curves(input, split));
   TRY(split->position.resize(split->vertices));
   TRY(split->normal.resize(split->vertices));
   TRY(split->area.resize(split->vertices));
-  for (uint32_t r = 0; r < split->vertices; ++r) {
+  TRY(in_parts(context, split->vertices, [&](size_t r) {
     split->position[r] = input.position[split->origin[r]];
     split->normal[r] = normal[split->origin[r]];
-  }
+  }));
   TRY(add_rim_conormals(split));
-  mesh::mixed_voronoi_areas(split->triangle.span(), shapes, split->area.span());
+  TRY(mesh::mixed_voronoi_areas(context, split->triangle.span(), shapes, split->area.span()));
   return mesh::cotangent_laplacian(split->vertices, split->triangle.span(), shapes,
                                    &split->laplacian);
 }
@@ -173,11 +177,10 @@ Status MinimumVariation::number_unknowns(Span<const uint8_t> held) {
   TRY(displacement_.resize(held.size()));
   TRY(curvature_.resize(held.size()));
   unknowns_ = 0;
-  for (size_t v = 0; v < held.size(); ++v) {
+  return in_parts(context_, held.size(), [&](size_t v) {
     displacement_[v] = held[v] ? k_none : unknowns_++;
     curvature_[v] = unknowns_++;
-  }
-  return {};
+  });
 }
 
 // A column whose entries come from several patches, sorted by row.
@@ -222,7 +225,8 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
     rows->value.push_reserved(value);
   };
   uint32_t column = 0, first_copy = 0;  // split vertices are numbered along with their origins
-  for (uint32_t v = 0; v < n; ++v) {
+  TRY(in_parts(context_, n, [&](size_t i) {
+    const uint32_t v = static_cast<uint32_t>(i);
     uint32_t end_copy = first_copy;
     while (end_copy < split && origin[end_copy] == v) ++end_copy;
     if (displacement_[v] != k_none) {
@@ -244,7 +248,7 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
     }
     add(split + 2 * n + v, 1.0);
     first_copy = end_copy;
-  }
+  }));
   rows->start[column] = static_cast<uint32_t>(rows->row.size());
   return {};
 }
@@ -253,11 +257,12 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
 // Where a border's normal is not known it has no conormal: there that row stays, as the natural
 // condition, and the first one's place is taken by a slight pull of h towards zero, without which a
 // patch of no known normal at all could have any constant h.
-static void make_targets(const DisplaceInput& input, const SplitMesh& split,
-                         Span<const double> area, Span<const Vec3> normal, Span<double> weight,
-                         Span<double> target) {
+static Status make_targets(const DisplaceInput& input, const SplitMesh& split,
+                           Span<const double> area, Span<const Vec3> normal, Span<double> weight,
+                           Span<double> target) {
+  Context& context = split.origin.context();
   const double length2 = input.smoothing_length * input.smoothing_length;
-  for (uint32_t r = 0; r < split.vertices; ++r) {
+  TRY(in_parts(context, split.vertices, [&](size_t r) {
     Vec3 sum = split.conormal[r];
     for (uint32_t p = split.laplacian.start[r]; p < split.laplacian.start[r + 1]; ++p) {
       sum += split.laplacian.value[p] * split.position[split.laplacian.row[p]];
@@ -268,13 +273,13 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
       weight[r] *= k_bare_pull;
       target[r] = 0.0;
     }
-  }
-  const uint32_t n = static_cast<uint32_t>(area.size());
-  for (uint32_t v = 0; v < n; ++v) {
+  }));
+  const size_t n = area.size();
+  return in_parts(context, n, [&](size_t v) {
     const bool left_out = input.on_border[v] && !input.is_bare(v);
     weight[split.vertices + v] = left_out ? 0.0 : length2 * length2 / area[v];
     target[split.vertices + v] = 0.0;
-    const uint32_t r = split.vertices + n + v;
+    const size_t r = split.vertices + n + v;
     const bool pulled = input.soft.any() && input.soft.cutoff[v] > 0.0;
     weight[r] =
         pulled ? length2 * length2 * spring(input.soft.share[v], input.soft.cutoff[v], 4) : 0.0;
@@ -282,7 +287,7 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
     const bool foretold = !input.foretold_weight.empty();
     weight[r + n] = foretold ? input.smoothing_length * input.foretold_weight[v] : 0.0;
     target[r + n] = foretold ? input.foretold_curvature[v] : 0.0;
-  }
+  });
 }
 
 // y = rows^T diag(weight) rows x.
@@ -290,21 +295,22 @@ static Status apply_normal_equations(void* self, Span<const double> x, Span<doub
   NormalEquations& equations = *static_cast<NormalEquations*>(self);
   const sparse::Csc& rows = equations.rows;
   const Span<double> image = equations.image.span();
-  for (double& value : image) value = 0.0;
-  for (uint32_t j = 0; j < rows.cols; ++j) {
+  Context& context = equations.image.context();
+  TRY(in_parts(context, image.size(), [&](size_t r) { image[r] = 0.0; }));
+  TRY(in_parts(context, rows.cols, [&](size_t j) {
     for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
       image[rows.row[p]] += rows.value[p] * x[j];
     }
-  }
-  for (size_t r = 0; r < image.size(); ++r) image[r] *= equations.weight[r];
-  for (uint32_t j = 0; j < rows.cols; ++j) {
+  }));
+  TRY(in_parts(context, image.size(), [&](size_t r) { image[r] *= equations.weight[r]; }));
+  TRY(in_parts(context, rows.cols, [&](size_t j) {
     double sum = 0.0;
     for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
       sum += rows.value[p] * image[rows.row[p]];
     }
     y[j] = sum;
-  }
-  return equations.image.context().checkpoint();
+  }));
+  return context.checkpoint();
 }
 
 // Conjugate gradients from the last step's h, until the residual is what the size allows. What
@@ -317,7 +323,8 @@ Status MinimumVariation::iterate(const WeightedRows& system,
   NormalEquations equations(context_, system.rows, system.weight);
   TRY(equations.image.resize(system.rows.rows));
   TRY(context_.enter(Stage::solve));
-  for (size_t i = 0; i < solution.size(); ++i) solution[i] = start_.empty() ? 0.0 : start_[i];
+  TRY(in_parts(context_, solution.size(),
+               [&](size_t i) { solution[i] = start_.empty() ? 0.0 : start_[i]; }));
   const Status status =
       sparse::conjugate_gradients(context_, {apply_normal_equations, &equations}, preconditioner,
                                   system.rhs, solution, {tolerance, most}, &result);
@@ -343,10 +350,10 @@ Status MinimumVariation::order_unknowns(const DisplaceInput& input, const sparse
   Array<uint32_t> vertex(context_), patch(context_);
   TRY(vertex.reserve(unknowns_));
   TRY(patch.assign(input.position.size(), 0));
-  for (uint32_t v = 0; v < displacement_.size(); ++v) {
-    if (displacement_[v] != k_none) vertex.push_reserved(v);
-    vertex.push_reserved(v);
-  }
+  TRY(in_parts(context_, displacement_.size(), [&](size_t v) {
+    if (displacement_[v] != k_none) vertex.push_reserved(static_cast<uint32_t>(v));
+    vertex.push_reserved(static_cast<uint32_t>(v));
+  }));
   TRY(mesh::patches_of_vertices(context_, input.triangle, input.patch, patch.span()));
   return sparse::nested_dissection(matrix, {vertex.span(), input.position, patch.span()}, order);
 }
@@ -363,7 +370,7 @@ Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const W
   Array<uint32_t> all(context_), order(context_);
   TRY(sparse::transpose(rows, &transposed));
   TRY(all.resize(rows.cols));
-  for (uint32_t j = 0; j < rows.cols; ++j) all[j] = j;
+  TRY(in_parts(context_, rows.cols, [&](size_t j) { all[j] = static_cast<uint32_t>(j); }));
   TRY(sparse::weighted_product(transposed, system.weight, rows, all.span(), rows.cols,
                                sparse::Part::lower, &matrix));
   transposed.row.free();
@@ -423,29 +430,29 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
   sparse::Csc laplacian(context_), rows(context_);
   SplitMesh split(context_);
   TRY(mesh::vertex_normals(context_, input.position, input.triangle, normal));
-  for (uint32_t v = 0; v < n; ++v) {
+  TRY(in_parts(context_, n, [&](size_t v) {
     if (input.on_curve[v] && !input.is_bare(v)) normal[v] = input.curve_normal[v];
-  }
+  }));
   TRY(mesh::triangle_shapes(input.position, input.triangle, &shapes));
   TRY(make_split_mesh(input, normal, shapes.span(), &split));
   TRY(context_.checkpoint());
   TRY(area.resize(n));
-  mesh::mixed_voronoi_areas(input.triangle, shapes.span(), area.span());
+  TRY(mesh::mixed_voronoi_areas(context_, input.triangle, shapes.span(), area.span()));
   TRY(mesh::cotangent_laplacian(n, input.triangle, shapes.span(), &laplacian));
   TRY(number_unknowns(input.held));
   TRY(make_rows(input, split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
   TRY(context_.checkpoint());
   TRY(weight.resize(rows.rows));
   TRY(target.resize(rows.rows));
-  make_targets(input, split, area.span(), normal, weight.span(), target.span());
+  TRY(make_targets(input, split, area.span(), normal, weight.span(), target.span()));
   TRY(rhs.resize(unknowns_));
   TRY(solution.resize(unknowns_));
-  for (uint32_t j = 0; j < unknowns_; ++j) {
+  TRY(in_parts(context_, unknowns_, [&](size_t j) {
     rhs[j] = 0.0;
     for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
       rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
     }
-  }
+  }));
   TRY(context_.checkpoint());
   const WeightedRows system = {rows, weight.span(), rhs.span()};
   bool solved = false;
@@ -462,11 +469,10 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
     TRY(solve_by_pairs(input, laplacian, area.span(), system, solution.span()));
   }
   TRY(start_.copy(solution.span()));
-  for (uint32_t v = 0; v < n; ++v) {
+  return in_parts(context_, n, [&](size_t v) {
     step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
     if (!input.held[v]) start_[displacement_[v]] = 0.0;
-  }
-  return {};
+  });
 }
 
 }  // namespace wireskin::smooth

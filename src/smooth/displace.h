@@ -31,7 +31,7 @@ struct DisplaceInput {
   Span<const double> foretold_curvature = {}, foretold_weight = {};
   Span<const uint32_t> inner_edge = {};  // of curves inside patches, two vertices each
 
-  bool is_bare(uint32_t v) const { return !bare.empty() && bare[v]; }
+  bool is_bare(size_t v) const { return !bare.empty() && bare[v]; }
 };
 
 // Solves one step after the other. The systems of later steps differ little from the first, so its

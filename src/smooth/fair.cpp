@@ -1,5 +1,6 @@
 #include "smooth/fair.h"
 
+#include "base/in_parts.h"
 #include "mesh/care.h"
 #include "mesh/curvature.h"
 #include "smooth/displace.h"
@@ -72,28 +73,29 @@ static void hold_back(const FairMesh& mesh, uint32_t patch, FairReport* report) 
 static Status unfold(Context& context, const FairMesh& mesh, const Guard& guard, Unfolded* safe) {
   TRY(mesh::unfold(context, {mesh.position, mesh.triangle, mesh.patch, kept_vertices(mesh, guard)},
                    safe->folds.span()));
-  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+  return in_parts(context, mesh.triangle.size(), [&](size_t h) {
     const uint32_t v = mesh.triangle[h], p = mesh.patch[h / 3];
-    if (safe->folds[p] > 0) continue;
+    if (safe->folds[p] > 0) return;
     safe->triangle[h] = v;
     safe->position[v] = mesh.position[v];
     safe->known[p] = 1;
-  }
-  return {};
+  });
 }
 
 // Patches that end with folds go back to the last state that had none.
-static void put_back_folded(const FairMesh& mesh, const Unfolded& safe, FairReport* report) {
+static Status put_back_folded(Context& context, const FairMesh& mesh, const Unfolded& safe,
+                              FairReport* report) {
   for (uint32_t p = 0; p < safe.folds.size(); ++p) {
     if (safe.folds[p] == 0 || !safe.known[p]) continue;
-    for (size_t h = 0; h < mesh.triangle.size(); ++h) {
-      if (mesh.patch[h / 3] != p) continue;
+    TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
+      if (mesh.patch[h / 3] != p) return;
       const uint32_t v = safe.triangle[h];
       mesh.triangle[h] = v;
       if (!mesh.on_curve[v]) mesh.position[v] = safe.position[v];
-    }
+    }));
     hold_back(mesh, p, report);
   }
+  return {};
 }
 
 static Status harmonic_start(Context& context, const FairMesh& mesh, double* residual) {
@@ -122,22 +124,22 @@ struct Placed {
 
 }  // namespace
 
-static Status put_in_place(const FairMesh& mesh, Placed* placed, FairMesh* fixed) {
+static Status put_in_place(Context& context, const FairMesh& mesh, Placed* placed,
+                           FairMesh* fixed) {
   *fixed = mesh;
   if (mesh.placed.empty()) return {};
   TRY(placed->on_curve.copy(mesh.on_curve));
   TRY(placed->held.copy(mesh.held));
   TRY(placed->normal.resize(mesh.position.size()));
-  for (size_t v = 0; v < mesh.placed.size(); ++v) {
+  TRY(in_parts(context, mesh.placed.size(), [&](size_t v) {
     if (mesh.placed[v]) mesh.position[v] = mesh.start[v];
-  }
-  TRY(mesh::vertex_normals(placed->normal.context(), mesh.position, mesh.triangle,
-                           placed->normal.span()));
-  for (size_t v = 0; v < mesh.placed.size(); ++v) {
-    if (!mesh.placed[v]) continue;
+  }));
+  TRY(mesh::vertex_normals(context, mesh.position, mesh.triangle, placed->normal.span()));
+  TRY(in_parts(context, mesh.placed.size(), [&](size_t v) {
+    if (!mesh.placed[v]) return;
     placed->on_curve[v] = placed->held[v] = 1;
     mesh.normal[v] = placed->normal[v];
-  }
+  }));
   fixed->on_curve = placed->on_curve.span();
   fixed->held = placed->held.span();
   return {};
@@ -155,47 +157,49 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
   return smooth(context, domain, Method::stanko, {mesh.position, mesh.normal}, &report->residual);
 }
 
-static Status prepare_guard(const FairMesh& mesh, uint32_t patches, Guard* guard) {
+static Status prepare_guard(Context& context, const FairMesh& mesh, uint32_t patches,
+                            Guard* guard) {
   TRY(guard->position.copy(mesh.position));
+  TRY(context.checkpoint());
   TRY(guard->triangle.copy(mesh.triangle));
   TRY(guard->area.assign(patches, 0.0));
   TRY(guard->step.assign(patches, -1.0));
   TRY(guard->frozen.assign(patches, 0));
   TRY(guard->still.copy(mesh.held));
   TRY(guard->kept.copy(mesh.on_curve));
-  for (size_t t = 0; t < mesh.patch.size(); ++t) {
+  return in_parts(context, mesh.patch.size(), [&](size_t t) {
     const uint32_t* v = &mesh.triangle[3 * t];
     const Vec3& a = mesh.position[v[0]];
     guard->area[mesh.patch[t]] +=
         0.5 * length(cross(mesh.position[v[1]] - a, mesh.position[v[2]] - a));
-  }
-  return {};
+  });
 }
 
 // Puts a patch back: flips stay within a patch, so its triangles still stand in the same places.
-static void freeze(const FairMesh& mesh, uint32_t patch, Guard* guard) {
+static Status freeze(Context& context, const FairMesh& mesh, uint32_t patch, Guard* guard) {
   guard->frozen[patch] = 1;
-  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
-    if (mesh.patch[h / 3] != patch) continue;
+  return in_parts(context, mesh.triangle.size(), [&](size_t h) {
+    if (mesh.patch[h / 3] != patch) return;
     const uint32_t v = guard->triangle[h];
     mesh.triangle[h] = v;
     mesh.position[v] = guard->position[v];
     guard->still[v] = guard->kept[v] = 1;
-  }
+  });
 }
 
 // Puts all patches back that are not frozen.
-static void freeze_all(const FairMesh& mesh, Guard* guard, FairReport* report) {
-  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+static Status freeze_all(Context& context, const FairMesh& mesh, Guard* guard, FairReport* report) {
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
     const uint32_t patch = mesh.patch[h / 3];
-    if (guard->frozen[patch]) continue;
+    if (guard->frozen[patch]) return;
     const uint32_t v = guard->triangle[h];
     mesh.triangle[h] = v;
     mesh.position[v] = guard->position[v];
     guard->still[v] = guard->kept[v] = 1;
     hold_back(mesh, patch, report);
-  }
+  }));
   for (uint8_t& frozen : guard->frozen) frozen = 1;
+  return {};
 }
 
 // Compares the displacements of each patch with its size, before they are applied.
@@ -203,11 +207,11 @@ static Status watch(Context& context, const FairMesh& mesh, Span<const double> s
                     FairReport* report) {
   Array<double> greatest(context);
   TRY(greatest.assign(guard->area.size(), 0.0));
-  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
     const double u = std::fabs(step[mesh.triangle[h]]);
     double& most = greatest[mesh.patch[h / 3]];
     if (most == most && !(u <= most)) most = u;  // not a number stays
-  }
+  }));
   for (uint32_t p = 0; p < greatest.size(); ++p) {
     if (guard->frozen[p]) continue;
     const double share = greatest[p] / std::sqrt(guard->area[p]);
@@ -216,7 +220,7 @@ static Status watch(Context& context, const FairMesh& mesh, Span<const double> s
     if (first && share > report->greatest_step) report->greatest_step = share;
     guard->step[p] = share;
     if (share <= k_greatest_step && !grows) continue;
-    freeze(mesh, p, guard);
+    TRY(freeze(context, mesh, p, guard));
     hold_back(mesh, p, report);
   }
   return {};
@@ -226,7 +230,7 @@ static Status foretell(Context& context, const FairMesh& mesh, Span<const Vec3> 
                        Foretold* foretold) {
   Array<uint8_t> given(context);
   TRY(given.copy(mesh.held));
-  for (size_t v = 0; v < mesh.bare.size(); ++v) given[v] = given[v] && !mesh.bare[v];
+  TRY(in_parts(context, mesh.bare.size(), [&](size_t v) { given[v] = given[v] && !mesh.bare[v]; }));
   return foretell_curvature(context,
                             {mesh.position, curve_normal, mesh.triangle, mesh.patch, given.span()},
                             &foretold->curvature, &foretold->weight);
@@ -265,10 +269,9 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
                                mesh.inner_edge};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
-  for (size_t v = 0; v < n; ++v) {
+  return in_parts(context, n, [&](size_t v) {
     if (!guard->still[v]) mesh.position[v] += step[v] * direction[v];
-  }
-  return {};
+  });
 }
 
 Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const FairOptions& options,
@@ -280,11 +283,12 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   Guard guard(context);
   Unfolded safe(context);
   TRY(safe.position.copy(mesh.position));
+  TRY(context.checkpoint());
   TRY(safe.triangle.copy(mesh.triangle));
   TRY(safe.folds.assign(patches, 0));
   TRY(safe.known.assign(patches, 0));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
-  TRY(put_in_place(mesh, &placed, &fixed));
+  TRY(put_in_place(context, mesh, &placed, &fixed));
   TRY(unfold(context, mesh, guard, &safe));
   for (int k = 0; k < options.paper_steps; ++k) {
     TRY(paper_step(context, fixed, &shapes, report));
@@ -292,7 +296,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   }
   // Soft curves take the normals that the last step smoothed; held ones have those given.
   TRY(curve_normal.copy(mesh.normal));
-  TRY(prepare_guard(mesh, patches, &guard));
+  TRY(prepare_guard(context, mesh, patches, &guard));
   Foretold foretold(context);
   if (options.displacement_steps > 0) {
     TRY(foretell(context, mesh, curve_normal.span(), &foretold));
@@ -305,7 +309,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     // Triangles too thin for a system of this order may do for those before.
     const bool singular = moved.code == Code::not_positive_definite;
     if (singular) {
-      freeze_all(mesh, &guard, report);
+      TRY(freeze_all(context, mesh, &guard, report));
     } else {
       TRY(moved);
       report->residual = solver.residual();
@@ -318,7 +322,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     }
     if (greatest < k_small_step) break;
   }
-  put_back_folded(mesh, safe, report);
+  TRY(put_back_folded(context, mesh, safe, report));
   report->factorisations = solver.factorisations();
   report->iterations = solver.iterations();
   return {};

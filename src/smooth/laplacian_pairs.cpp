@@ -1,5 +1,6 @@
 #include "smooth/laplacian_pairs.h"
 
+#include "base/in_parts.h"
 #include "sparse/nested_dissection.h"
 
 namespace wireskin::smooth {
@@ -14,8 +15,8 @@ Status shifted_laplacian(const sparse::Csc& laplacian, Span<const uint32_t> unkn
   part->row.clear();
   part->value.clear();
   uint32_t j = 0;
-  for (uint32_t column = 0; column < laplacian.cols; ++column) {
-    if (unknown[column] == k_none) continue;
+  TRY(in_parts(part->start.context(), laplacian.cols, [&](size_t column) {
+    if (unknown[column] == k_none) return;
     part->start[j] = static_cast<uint32_t>(part->row.size());
     for (uint32_t p = laplacian.start[column]; p < laplacian.start[column + 1]; ++p) {
       const uint32_t i = unknown[laplacian.row[p]];
@@ -25,7 +26,7 @@ Status shifted_laplacian(const sparse::Csc& laplacian, Span<const uint32_t> unkn
       part->value.push_reserved(own - scale * laplacian.value[p]);
     }
     ++j;
-  }
+  }));
   part->start[j] = static_cast<uint32_t>(part->row.size());
   return {};
 }
@@ -43,13 +44,13 @@ Status LaplacianPairs::factor_block(const FairingBlocks& blocks, Span<const uint
   TRY(block->area.reserve(n));
   block->unknown.clear();
   block->area.clear();
-  for (uint32_t v = 0; v < n; ++v) {
+  TRY(in_parts(context, n, [&](size_t v) {
     own[v] = numbers[v] == k_none ? k_none : static_cast<uint32_t>(block->unknown.size());
-    if (own[v] == k_none) continue;
-    vertex.push_reserved(v);
+    if (own[v] == k_none) return;
+    vertex.push_reserved(static_cast<uint32_t>(v));
     block->unknown.push_reserved(numbers[v]);
     block->area.push_reserved(blocks.area[v]);
-  }
+  }));
   const uint32_t unknowns = static_cast<uint32_t>(vertex.size());
   TRY(block->value.resize(unknowns));
   if (unknowns == 0) return {};
@@ -64,15 +65,15 @@ Status LaplacianPairs::factor_block(const FairingBlocks& blocks, Span<const uint
 }
 
 Status LaplacianPairs::build(const FairingBlocks& blocks) {
-  Array<double> shift(u_.unknown.context());
+  Context& context = u_.unknown.context();
+  Array<double> shift(context);
   const double length2 = blocks.smoothing_length * blocks.smoothing_length;
   TRY(shift.resize(blocks.area.size()));
-  for (size_t v = 0; v < blocks.spring.size(); ++v) {
-    shift[v] = std::sqrt(blocks.spring[v] * blocks.area[v]);
-  }
+  TRY(in_parts(context, blocks.spring.size(),
+               [&](size_t v) { shift[v] = std::sqrt(blocks.spring[v] * blocks.area[v]); }));
   TRY(factor_block(blocks, blocks.displacement, 1.0,
                    blocks.spring.empty() ? Span<const double>{} : shift.span(), &u_));
-  for (size_t v = 0; v < shift.size(); ++v) shift[v] = 2.0 * blocks.area[v];
+  TRY(in_parts(context, shift.size(), [&](size_t v) { shift[v] = 2.0 * blocks.area[v]; }));
   return factor_block(blocks, blocks.curvature, length2, shift.span(), &h_);
 }
 
@@ -80,12 +81,12 @@ Status LaplacianPairs::build(const FairingBlocks& blocks) {
 Status LaplacianPairs::apply_block(Span<const double> x, Span<double> y, Block* block) {
   const Span<double> value = block->value.span();
   if (value.empty()) return {};
-  for (size_t i = 0; i < value.size(); ++i) value[i] = x[block->unknown[i]];
+  Context& context = block->unknown.context();
+  TRY(in_parts(context, value.size(), [&](size_t i) { value[i] = x[block->unknown[i]]; }));
   TRY(block->factor.solve(value, 1));
-  for (size_t i = 0; i < value.size(); ++i) value[i] *= block->area[i];
+  TRY(in_parts(context, value.size(), [&](size_t i) { value[i] *= block->area[i]; }));
   TRY(block->factor.solve(value, 1));
-  for (size_t i = 0; i < value.size(); ++i) y[block->unknown[i]] = value[i];
-  return {};
+  return in_parts(context, value.size(), [&](size_t i) { y[block->unknown[i]] = value[i]; });
 }
 
 Status LaplacianPairs::apply(void* self, Span<const double> x, Span<double> y) {

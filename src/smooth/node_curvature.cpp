@@ -7,6 +7,8 @@ namespace wireskin::smooth {
 static constexpr uint32_t k_window_share = 3, k_least_window = 4;
 // A weight of one stands for a relative error of a tenth, and no error is less than .04.
 static constexpr double k_usual_error = 0.1, k_least_error = 0.04;
+// So many vertices of arcs are a few milliseconds of work.
+static constexpr size_t k_vertices_per_checkpoint = size_t{1} << 14;
 
 namespace {
 
@@ -373,6 +375,14 @@ static Status number_nodes(Context& context, size_t vertices, Span<ArcEnd> ends,
   return {};
 }
 
+// Arcs may be long or short, so their vertices are counted instead.
+static Status pause_after_arc(Context& context, size_t vertices, size_t* work) {
+  *work += vertices;
+  if (*work < k_vertices_per_checkpoint) return {};
+  *work = 0;
+  return context.checkpoint();
+}
+
 Status foretell_curvature(Context& context, const GivenCurves& curves, Array<double>* curvature,
                           Array<double>* weight) {
   const size_t n = curves.position.size();
@@ -383,10 +393,11 @@ Status foretell_curvature(Context& context, const GivenCurves& curves, Array<dou
   TRY(weight->assign(n, 0.0));
   TRY(find_arcs(context, curves, k_least_window, &arcs));
   TRY(ends.resize(size_t{2} * arcs.count()));
+  size_t work = 0;
   for (uint32_t a = 0; a < arcs.count(); ++a) {
     ends[2 * a] = leave_node(curves, arcs.arc(a), false);
     ends[2 * a + 1] = leave_node(curves, arcs.arc(a), true);
-    if (a % 1024 == 1023) TRY(context.checkpoint());
+    TRY(pause_after_arc(context, arcs.arc(a).size(), &work));
   }
   uint32_t nodes = 0;
   TRY(number_nodes(context, n, ends.span(), &nodes));
@@ -400,6 +411,7 @@ Status foretell_curvature(Context& context, const GivenCurves& curves, Array<dou
         forms[first].error * forms[first].error + forms[last].error * forms[last].error;
     const ArcCurvature known = make_arc_curvature(curves, arcs.arc(a), &ends[2 * a], of_ends);
     foretell_arc(curves, arcs.arc(a), known, node_error2, curvature->span(), weight->span());
+    TRY(pause_after_arc(context, arcs.arc(a).size(), &work));
   }
   return {};
 }

@@ -1,5 +1,6 @@
 #include "smooth/smooth.h"
 
+#include "base/in_parts.h"
 #include "mesh/curvature.h"
 
 namespace wireskin::smooth {
@@ -14,24 +15,24 @@ static Status add_conormals(Context& context, const Domain& domain, const Field&
   Array<uint32_t> twins(context);
   const uint32_t n = static_cast<uint32_t>(field.position.size());
   TRY(mesh::find_twins(n, domain.triangle, &twins));
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] != k_none) continue;
-    const uint32_t a = domain.triangle[h], b = domain.triangle[mesh::next_half_edge(h)];
+  return in_parts(context, twins.size(), [&](size_t h) {
+    if (twins[h] != k_none) return;
+    const uint32_t next = mesh::next_half_edge(static_cast<uint32_t>(h));
+    const uint32_t a = domain.triangle[h], b = domain.triangle[next];
     const Vec3 edge = field.position[b] - field.position[a];
     const Vec3 half = 0.5 * cross(edge, unit(field.normal[a] + field.normal[b]));
     conormal[a] += half;
     conormal[b] += half;
-  }
-  return {};
+  });
 }
 
 // The inverse mixed Voronoi areas; zero for rows that are left out.
-static void row_weights(const Domain& domain, bool border_rows, Span<const double> area,
-                        Span<double> weight) {
-  for (size_t v = 0; v < weight.size(); ++v) {
+static Status row_weights(Context& context, const Domain& domain, bool border_rows,
+                          Span<const double> area, Span<double> weight) {
+  return in_parts(context, weight.size(), [&](size_t v) {
     const bool bare = !domain.bare.empty() && domain.bare[v];
     weight[v] = bare || (domain.on_border[v] && !border_rows) ? 0.0 : 1.0 / area[v];
-  }
+  });
 }
 
 namespace {
@@ -57,12 +58,11 @@ struct Guided {
 static Status penalties(const Domain& domain, int order, bool normals, Array<double>* penalty) {
   const Soft& soft = domain.soft;
   TRY(penalty->assign(soft.cutoff.size(), 0.0));
-  for (size_t v = 0; v < penalty->size(); ++v) {
-    if (soft.cutoff[v] == 0.0) continue;
+  return in_parts(penalty->context(), penalty->size(), [&](size_t v) {
+    if (soft.cutoff[v] == 0.0) return;
     const double cutoff = normals ? soft.normal_cutoff(v) : soft.cutoff[v];
     (*penalty)[v] = spring(soft.share[v], cutoff, order);
-  }
-  return {};
+  });
 }
 
 // Bare vertices take the normal that the surface has there by itself: the current one in space, the
@@ -78,16 +78,15 @@ static Status estimate_bare_normals(Context& context, const Domain& domain, cons
     TRY(guided->system.solve({}, domain.soft.position, field.position, residual));
   }
   TRY(mesh::vertex_normals(context, field.position, domain.triangle, normal.span()));
-  for (size_t v = 0; v < normal.size(); ++v) {
+  return in_parts(context, normal.size(), [&](size_t v) {
     if (domain.bare[v]) field.normal[v] = normal[v];
-  }
-  return {};
+  });
 }
 
-static void make_unit(const Domain& domain, const Field& field) {
-  for (size_t v = 0; v < domain.held.size(); ++v) {
+static Status make_unit(Context& context, const Domain& domain, const Field& field) {
+  return in_parts(context, domain.held.size(), [&](size_t v) {
     if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
-  }
+  });
 }
 
 // Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its
@@ -101,8 +100,7 @@ static Status aim_at_conormals(Context& context, const Domain& domain, const Fie
   TRY(guided->conormal.assign(n, Vec3{}));
   TRY(guided->target.resize(n));
   TRY(add_conormals(context, domain, field, guided->conormal.span()));
-  for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
-  return {};
+  return in_parts(context, n, [&](size_t v) { guided->target[v] = -guided->conormal[v]; });
 }
 
 // Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor
@@ -121,11 +119,10 @@ static Status propagate(Context& context, const Domain& domain, Method method, c
     TRY(aim_at_conormals(context, domain, field, guided));
     const Field3 both[] = {normals, {guided->target.span(), {}, field.position}};
     TRY(guided->system.solve({both, 2}, residual));
-    make_unit(domain, field);
-    return {};
+    return make_unit(context, domain, field);
   }
   TRY(guided->system.solve({&normals, 1}, residual));
-  make_unit(domain, field);
+  TRY(make_unit(context, domain, field));
   TRY(aim_at_conormals(context, domain, field, guided));
   TRY(penalties(domain, 2, false, &penalty));
   TRY(guided->system.factor(guided->weight.span(), penalty.span()));
@@ -140,13 +137,13 @@ static Status fit(Context& context, const Domain& domain, Method method, const F
   const bool clamped = method == Method::clamped;
   const bool has_conormals = !guided->conormal.empty();
   TRY(guided->target.resize(field.position.size()));
-  for (size_t v = 0; v < field.position.size(); ++v) {
+  TRY(in_parts(context, field.position.size(), [&](size_t v) {
     const bool guides = !clamped || domain.on_curve[v];
     const double scale = guides ? -2.0 * guided->area[v] * guided->curvature[v] : 0.0;
     guided->target[v] = scale * field.normal[v];
     if (has_conormals) guided->target[v] -= guided->conormal[v];
     if (clamped && domain.on_curve[v]) guided->weight[v] *= k_clamp_penalty;
-  }
+  }));
   if (clamped) {
     Array<double> penalty(context);
     TRY(penalties(domain, 2, false, &penalty));
@@ -166,10 +163,10 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
   TRY(mesh::cotangent_laplacian(n, domain.triangle, domain.shape, &laplacian));
   TRY(guided.area.resize(n));
   TRY(guided.weight.resize(n));
-  mesh::mixed_voronoi_areas(domain.triangle, domain.shape, guided.area.span());
+  TRY(mesh::mixed_voronoi_areas(context, domain.triangle, domain.shape, guided.area.span()));
   if (domain.spent != nullptr) domain.spent->free();
-  row_weights(domain, uses_normals && domain.metric == Metric::space, guided.area.span(),
-              guided.weight.span());
+  TRY(row_weights(context, domain, uses_normals && domain.metric == Metric::space,
+                  guided.area.span(), guided.weight.span()));
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
   TRY(guided.system.prepare(laplacian, domain.held, order, domain.places));
   if (domain.spent_places != nullptr) domain.spent_places->free();

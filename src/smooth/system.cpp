@@ -1,5 +1,6 @@
 #include "smooth/system.h"
 
+#include "base/in_parts.h"
 #include "smooth/laplacian_pairs.h"
 #include "sparse/nested_dissection.h"
 #include "sparse/ordering.h"
@@ -32,45 +33,48 @@ static Vec3 multiply_row(const sparse::Csc& a, uint32_t j, Span<const Vec3> x) {
 }
 
 // y = A x; columns that meet zeros are spared where there are many.
-static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+static Status multiply_vectors(Context& context, const sparse::Csc& a, Span<const Vec3> x,
+                               Span<Vec3> y) {
   if (!is_mostly_zero(x)) {
-    for (uint32_t j = 0; j < a.cols; ++j) y[j] = multiply_row(a, j, x);
-    return;
+    return in_parts(context, a.cols,
+                    [&](size_t j) { y[j] = multiply_row(a, static_cast<uint32_t>(j), x); });
   }
-  for (Vec3& v : y) v = Vec3{};
-  for (uint32_t j = 0; j < a.cols; ++j) {
-    if (x[j] == Vec3{}) continue;
+  TRY(in_parts(context, y.size(), [&](size_t j) { y[j] = Vec3{}; }));
+  return in_parts(context, a.cols, [&](size_t j) {
+    if (x[j] == Vec3{}) return;
     for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
-  }
+  });
 }
 
 Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
                        const Places& places) {
+  Context& context = weight_.context();
   laplacian_ = &laplacian;
   order_ = order;
   analysed_ = iterative_ = false;
   unknowns_ = 0;
   TRY(unknown_.resize(fixed.size()));
-  for (size_t v = 0; v < fixed.size(); ++v) unknown_[v] = fixed[v] ? k_none : unknowns_++;
+  TRY(in_parts(context, fixed.size(),
+               [&](size_t v) { unknown_[v] = fixed[v] ? k_none : unknowns_++; }));
   place_.clear();
   patch_.clear();
   if (!places.position.empty()) {
     TRY(place_.reserve(unknowns_));
     TRY(patch_.reserve(unknowns_));
-    for (size_t v = 0; v < fixed.size(); ++v) {
-      if (fixed[v]) continue;
+    TRY(in_parts(context, fixed.size(), [&](size_t v) {
+      if (fixed[v]) return;
       place_.push_reserved(places.position[v]);
       patch_.push_reserved(places.patch[v]);
-    }
+    }));
   }
   return {};
 }
 
 // Columns begin with their diagonal.
-void System::add_penalties() {
-  for (size_t v = 0; v < penalty_.size(); ++v) {
+Status System::add_penalties() {
+  return in_parts(weight_.context(), penalty_.size(), [&](size_t v) {
     if (unknown_[v] != k_none) matrix_.value[matrix_.start[unknown_[v]]] += penalty_[v];
-  }
+  });
 }
 
 Status System::find_order(const sparse::Csc& matrix, Array<uint32_t>* order) const {
@@ -110,9 +114,9 @@ Status System::prepare_iteration() {
   Array<double> shift(context);
   if (order_ == Order::two && !penalty_.empty()) {
     TRY(shift.resize(penalty_.size()));
-    for (size_t v = 0; v < shift.size(); ++v) {
+    TRY(in_parts(context, shift.size(), [&](size_t v) {
       shift[v] = std::sqrt(weight_[v] > 0.0 ? penalty_[v] / weight_[v] : penalty_[v]);
-    }
+    }));
   }
   TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, shift.span(), &part));
   if (!iterative_) {
@@ -129,13 +133,14 @@ Status System::prepare_iteration() {
 // y = (L_ff W L_ff)^-1 x, for order 3 (L_ff W L_ff W L_ff)^-1 x up to the sign.
 Status System::apply_laplacian_inverses(void* self, Span<const double> x, Span<double> y) {
   System& system = *static_cast<System*>(self);
-  for (size_t i = 0; i < x.size(); ++i) y[i] = x[i];
+  Context& context = system.weight_.context();
+  TRY(in_parts(context, x.size(), [&](size_t i) { y[i] = x[i]; }));
   for (int k = 1; k < static_cast<int>(system.order_); ++k) {
     TRY(system.factor_.solve(y, 1));
-    for (size_t v = 0; v < system.weight_.size(); ++v) {
+    TRY(in_parts(context, system.weight_.size(), [&](size_t v) {
       const uint32_t i = system.unknown_[v];
       if (i != k_none && system.weight_[v] > 0.0) y[i] /= system.weight_[v];
-    }
+    }));
   }
   return system.factor_.solve(y, 1);
 }
@@ -148,17 +153,17 @@ Status System::iterate(size_t columns) {
   TRY(b.resize(unknowns_));
   TRY(x.resize(unknowns_));
   for (size_t c = 0; c < columns; ++c) {
-    for (size_t i = 0; i < unknowns_; ++i) {
+    TRY(in_parts(context, unknowns_, [&](size_t i) {
       b[i] = block_[columns * i + c];
       x[i] = 0.0;
-    }
+    }));
     sparse::CgResult result;
     TRY(sparse::conjugate_gradients(context, sparse::symmetric_operator(matrix_),
                                     {&apply_laplacian_inverses, this}, b.span(), x.span(), options,
                                     &result));
     context.count_iterations(result.iterations);
     if (!(result.residual <= 1e-6)) return no_room_for_factor();
-    for (size_t i = 0; i < unknowns_; ++i) block_[columns * i + c] = x[i];
+    TRY(in_parts(context, unknowns_, [&](size_t i) { block_[columns * i + c] = x[i]; }));
   }
   return {};
 }
@@ -168,6 +173,7 @@ Status System::factor(Span<const double> weight, Span<const double> penalty, boo
   TRY(context.enter(Stage::operators));
   TRY(weight_.copy(weight));
   TRY(penalty_.copy(penalty));
+  TRY(context.checkpoint());
   if (unknowns_ == 0) return {};
   if (order_ == Order::one) {
     TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, {}, &matrix_));
@@ -180,16 +186,16 @@ Status System::factor(Span<const double> weight, Span<const double> penalty, boo
     sparse::Csc squared(context);
     TRY(all.resize(weight.size()));
     TRY(minus.resize(weight.size()));
-    for (uint32_t v = 0; v < weight.size(); ++v) {
-      all[v] = v;
+    TRY(in_parts(context, weight.size(), [&](size_t v) {
+      all[v] = static_cast<uint32_t>(v);
       minus[v] = -weight[v];
-    }
+    }));
     TRY(sparse::weighted_product(*laplacian_, weight, *laplacian_, all.span(), laplacian_->cols,
                                  sparse::Part::all, &squared));
     TRY(sparse::weighted_product(squared, minus.span(), *laplacian_, unknown_.span(), unknowns_,
                                  sparse::Part::lower, &matrix_));
   }
-  add_penalties();
+  TRY(add_penalties());
   TRY(context.enter(Stage::factor));
   const bool first = !analysed_;
   if (first) TRY(analyse());
@@ -221,37 +227,38 @@ Status System::find_gradients(Span<const Field3> fields, double* squares) {
     for (int k = 1; k < static_cast<int>(order_); ++k) {
       const Span<Vec3> y = k == 1 ? image.span() : spare.span();
       const bool aims = k == 1 && !field.target.empty();
-      multiply_vectors(*laplacian_, x, y);
-      for (size_t v = 0; v < n; ++v) y[v] = weight_[v] * (aims ? field.target[v] - y[v] : -y[v]);
+      TRY(multiply_vectors(context, *laplacian_, x, y));
+      TRY(in_parts(context, n,
+                   [&](size_t v) { y[v] = weight_[v] * (aims ? field.target[v] - y[v] : -y[v]); }));
       x = y;
     }
     Vec3 sum;
-    for (uint32_t v = 0; v < n; ++v) {
-      if (unknown_[v] == k_none) continue;
-      Vec3 g = multiply_row(*laplacian_, v, x);
+    TRY(in_parts(context, n, [&](size_t v) {
+      if (unknown_[v] == k_none) return;
+      Vec3 g = multiply_row(*laplacian_, static_cast<uint32_t>(v), x);
       if (!penalty_.empty() && penalty_[v] != 0.0) {
         g += penalty_[v] * (field.anchor[v] - field.value[v]);
       }
       double* row = &block_[columns * unknown_[v] + 3 * f];
       row[0] = g.x, row[1] = g.y, row[2] = g.z;
       sum += Vec3{g.x * g.x, g.y * g.y, g.z * g.z};
-    }
+    }));
     squares[3 * f] = sum.x, squares[3 * f + 1] = sum.y, squares[3 * f + 2] = sum.z;
     TRY(context.checkpoint());
   }
   return {};
 }
 
-void System::add_solutions(Span<const Field3> fields) const {
+Status System::add_solutions(Span<const Field3> fields) const {
   const size_t columns = 3 * fields.size();
-  for (size_t v = 0; v < unknown_.size(); ++v) {
-    if (unknown_[v] == k_none) continue;
+  return in_parts(weight_.context(), unknown_.size(), [&](size_t v) {
+    if (unknown_[v] == k_none) return;
     const double* row = &block_[columns * unknown_[v]];
     for (const Field3& field : fields) {
       field.value[v] += Vec3{row[0], row[1], row[2]};
       row += 3;
     }
-  }
+  });
 }
 
 static double greatest_ratio(const double* left, const double* whole, size_t columns) {
@@ -268,13 +275,14 @@ Status System::solve(Span<const Field3> fields, double* residual) {
   double whole[3 * k_most], left[3 * k_most];
   const size_t columns = 3 * fields.size();
   WIRESKIN_ASSERT(fields.size() <= k_most);
-  TRY(weight_.context().enter(Stage::solve));
+  Context& context = weight_.context();
+  TRY(context.enter(Stage::solve));
   *residual = 0.0;
   if (unknowns_ == 0) return {};
   for (const Field3& field : fields) {
-    for (size_t v = 0; v < unknown_.size(); ++v) {
+    TRY(in_parts(context, unknown_.size(), [&](size_t v) {
       if (unknown_[v] != k_none) field.value[v] = Vec3{};
-    }
+    }));
   }
   TRY(block_.resize(columns * unknowns_));
   TRY(find_gradients(fields, whole));
@@ -283,13 +291,13 @@ Status System::solve(Span<const Field3> fields, double* residual) {
   } else {
     TRY(factor_.solve(block_.span(), static_cast<uint32_t>(columns)));
   }
-  add_solutions(fields);
+  TRY(add_solutions(fields));
   TRY(find_gradients(fields, left));
   *residual = greatest_ratio(left, whole, columns);
   const double good = unknowns_ <= 30000 ? 1e-12 : unknowns_ <= 300000 ? 1e-11 : 1e-10;
   if (!iterative_ && *residual > good) {  // one step of iterative refinement
     TRY(factor_.solve(block_.span(), static_cast<uint32_t>(columns)));
-    add_solutions(fields);
+    TRY(add_solutions(fields));
     TRY(find_gradients(fields, left));
     *residual = greatest_ratio(left, whole, columns);
   }

@@ -63,8 +63,8 @@ class System {
 
  private:
   Status find_gradients(Span<const Field3> fields, double* squares);
-  void add_solutions(Span<const Field3> fields) const;
-  void add_penalties();
+  Status add_solutions(Span<const Field3> fields) const;
+  Status add_penalties();
   Status find_order(const sparse::Csc& matrix, Array<uint32_t>* order) const;
   Status analyse();
   Status prepare_iteration();

@@ -240,7 +240,7 @@ void write_own_matrix(const Options& options, const std::string& size) {
   std::vector<double> weight(n);
   must(mesh::triangle_shapes({position.data(), n}, triangle, &shapes));
   must(mesh::cotangent_laplacian(n, triangle, shapes.span(), &laplacian));
-  mesh::mixed_voronoi_areas(triangle, shapes.span(), {weight.data(), n});
+  must(mesh::mixed_voronoi_areas(context, triangle, shapes.span(), {weight.data(), n}));
   for (double& w : weight) w = 1.0 / w;
   must(wireskin::sparse::weighted_product(
       laplacian, {weight.data(), n}, laplacian, {unknown.data(), n},

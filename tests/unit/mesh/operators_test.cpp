@@ -22,7 +22,7 @@ struct Operators {
   explicit Operators(const Mesh& mesh) : mixed(mesh.vertices()), barycentric(mesh.vertices()) {
     must(triangle_shapes(view(mesh.position), view(mesh.triangle), &shapes));
     must(cotangent_laplacian(mesh.vertices(), view(mesh.triangle), shapes.span(), &laplacian));
-    mixed_voronoi_areas(view(mesh.triangle), shapes.span(), span(mixed));
+    must(mixed_voronoi_areas(heap.context, view(mesh.triangle), shapes.span(), span(mixed)));
     barycentric_areas(view(mesh.triangle), shapes.span(), span(barycentric));
   }
   double apply(uint32_t v, const std::vector<double>& f) const {  // by symmetry, column v
@@ -103,7 +103,8 @@ TEST_CASE("operators: mixed areas of single triangles") {
     const std::vector<TriangleShape> shapes = {triangle_shape(a, b, c)};
     const std::vector<uint32_t> triangle = {0, 1, 2};
     std::vector<double> areas(3);
-    mixed_voronoi_areas(view(triangle), view(shapes), span(areas));
+    Heap heap;
+    must(mixed_voronoi_areas(heap.context, view(triangle), view(shapes), span(areas)));
     return areas;
   };
   // The circumcentre of (0,0), (4,0), (1,3) is (2, 1): Voronoi parts by hand.

@@ -71,7 +71,7 @@ struct Problem {
     must(triangle_shapes(view(mesh.position), view(mesh.triangle), &shapes));
     must(cotangent_laplacian(mesh.vertices(), view(mesh.triangle), shapes.span(), &laplacian));
     weight.resize(mesh.vertices());
-    mixed_voronoi_areas(view(mesh.triangle), shapes.span(), span(weight));
+    must(mixed_voronoi_areas(heap.context, view(mesh.triangle), shapes.span(), span(weight)));
     for (double& w : weight) w = 1.0 / w;
   }
   double run(Order order, const std::vector<Vec3>& target, std::vector<Vec3>* value) {
