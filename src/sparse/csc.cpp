@@ -58,10 +58,10 @@ Status transpose(const Csc& a, Csc* result) {
   TRY(result->row.resize(entries));
   TRY(result->value.resize(entries));
   Array<uint32_t> next(a.start.context());
-  TRY(next.reserve(size_t{a.rows} + 1));
+  TRY(next.resize(size_t{a.rows} + 1));
   TRY(in_parts(a.start.context(), entries, [&](size_t k) { ++result->start[a.row[k]]; }));
   starts_from_counts(result->start.span());
-  TRY(next.copy(result->start.span()));
+  TRY(in_parts(a.start.context(), next.size(), [&](size_t i) { next[i] = result->start[i]; }));
   for (uint32_t j = 0; j < a.cols; ++j) {
     TRY(checkpoint_at_column(a.start.context(), j));
     for (uint32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
@@ -83,7 +83,7 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
   TRY(result->index.resize(lower.row.size()));
   if (with_source) TRY(result->source.resize(lower.row.size()));
   Array<uint32_t> next(context);
-  TRY(next.reserve(size_t{n} + 1));
+  TRY(next.resize(size_t{n} + 1));
   const bool by_smaller = triangle == Triangle::lower;
   for (uint32_t j = 0; j < n; ++j) {
     TRY(checkpoint_at_column(context, j));
@@ -94,7 +94,7 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     }
   }
   starts_from_counts(result->start.span());
-  TRY(next.copy(result->start.span()));
+  TRY(in_parts(context, next.size(), [&](size_t j) { next[j] = result->start[j]; }));
   for (uint32_t j = 0; j < n; ++j) {
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {

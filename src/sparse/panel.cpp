@@ -166,7 +166,7 @@ uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
 }
 
 // Multiplications of one thread between two checkpoints, about.
-static constexpr double k_most_work = 3e7;
+static constexpr double k_most_work = 2.5e7;
 
 static void run_slot(uint32_t slot, void* data) {
   const PanelParts& parts = *static_cast<const PanelParts*>(data);
@@ -233,6 +233,7 @@ Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Pa
     const uint32_t below = round_up_rows(first + block.count);
     update_columns(tools, panel, 0, first, block.count, first, below, tools.scratch);
     if (below < rows) {
+      TRY(context.checkpoint());
       TRY(run_parts(context, {&tools, &panel, &block, nullptr, below, rows, 0, &update_rows},
                     double{k_panel_block} * (first + 1)));
     }
