@@ -1,5 +1,6 @@
 #include "sparse/cholesky.h"
 
+#include "base/in_parts.h"
 #include "sparse/elimination_tree.h"
 
 namespace wireskin::sparse {
@@ -17,8 +18,9 @@ Cholesky::Cholesky(Context& context, Instructions instructions)
       workspace_(context),
       scratch_(context) {}
 
-static void invert_order(Span<const uint32_t> order, Span<uint32_t> position) {
-  for (uint32_t k = 0; k < order.size(); ++k) position[order[k]] = k;
+static Status invert_order(Span<const uint32_t> order, Array<uint32_t>* position) {
+  return in_parts(position->context(), order.size(),
+                  [&](size_t k) { (*position)[order[k]] = static_cast<uint32_t>(k); });
 }
 
 // Renumbers the elimination so that it runs through the elimination tree in postorder. That changes
@@ -34,15 +36,17 @@ static Status order_by_tree(const Csc& lower, Array<uint32_t>* order, Array<uint
   TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper, false));
   TRY(elimination_tree(upper, &tree));
   TRY(postorder(tree.span(), &post));
-  invert_order(post.span(), position->span());
-  for (uint32_t k = 0; k < n; ++k) {
+  TRY(invert_order(post.span(), position));
+  TRY(in_parts(context, n, [&](size_t k) {
     const uint32_t above = tree[post[k]];
     (*parent)[k] = above == k_none ? k_none : (*position)[above];
     (*order)[k] = given[post[k]];
-  }
-  invert_order(order->span(), position->span());
-  return {};
+  }));
+  return invert_order(order->span(), position);
 }
+
+// A visit to an entry of the pattern takes as long as about so many multiplications.
+static constexpr size_t k_entry_work = 4;
 
 // Replaces the rows of the permuted pattern by their places in the panels.
 Status Cholesky::locate_entries() {
@@ -50,12 +54,13 @@ Status Cholesky::locate_entries() {
   TRY(position.resize(n_));
   for (uint32_t s = 0; s < supernodes_.count; ++s) {
     const uint32_t* rows = supernodes_.rows(s);
-    TRY(checkpoint_at_column(*context_, s));
     for (uint32_t r = 0; r < supernodes_.height(s); ++r) position[rows[r]] = r;
     const uint32_t end = lower_.start[supernodes_.first[s + 1]];
     for (uint32_t k = lower_.start[supernodes_.first[s]]; k < end; ++k) {
       lower_.index[k] = position[lower_.index[k]];
     }
+    const uint32_t entries = end - lower_.start[supernodes_.first[s]];
+    TRY(count_work(k_entry_work * (size_t{supernodes_.height(s)} + entries)));
   }
   return {};
 }
@@ -69,6 +74,7 @@ Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
   TRY(order_.copy(order));
   TRY(position.assign(n_, k_none));
   for (uint32_t k = 0; k < n_; ++k) {
+    TRY(checkpoint_at_column(*context_, k));
     if (order[k] >= n_ || position[order[k]] != k_none) {
       return fail(Code::bad_argument, k_no_permutation);
     }
@@ -87,7 +93,7 @@ Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
     if (supernodes_.height(s) > tallest_) tallest_ = supernodes_.height(s);
   }
   nonzeros_ = 0;
-  for (const uint32_t c : count) nonzeros_ += c;
+  TRY(in_parts(*context_, n_, [&](size_t k) { nonzeros_ += count[k]; }));
   analysed_ = true;
   return {};
 }
@@ -116,45 +122,91 @@ Status Cholesky::allocate_workspace() {
   return scratch_.resize(scratch_size());
 }
 
-// Adds the update matrix of a child to the front of its parent.
-void Cholesky::add_child(uint32_t c, const Panel& panel) {
+Status Cholesky::count_work(size_t work) {
+  constexpr size_t k_work_per_checkpoint = size_t{1} << 21;
+  work_ += work;
+  if (work_ < k_work_per_checkpoint) return {};
+  work_ = 0;
+  return context_->checkpoint();
+}
+
+// Adds the update matrix of a child to the columns first .. end of the front of its parent.
+void Cholesky::add_child(uint32_t c, const Panel& panel, uint32_t first, uint32_t end) {
   const uint32_t tail = supernodes_.height(c) - supernodes_.width(c);
   const double* from = workspace_.data() + fronts_.update[c];
-  const Run* end = fronts_.run.data() + fronts_.run_start[c + 1];
-  for (const Run* run = fronts_.run.data() + fronts_.run_start[c]; run < end; ++run) {
-    for (uint32_t k = run->from; k < run->from + run->length; ++k) {
+  const Run* run = fronts_.run.data() + fronts_.run_start[c];
+  const Run* const last = fronts_.run.data() + fronts_.run_start[c + 1];
+  while (run < last && run->to + run->length <= first) ++run;
+  for (; run < last && run->to < end; ++run) {
+    const uint32_t behind = run->to + run->length;
+    for (uint32_t to = run->to < first ? first : run->to; to < behind && to < end; ++to) {
+      const uint32_t k = run->from + (to - run->to);
       const double* column = from + size_t{k} * round_up_rows(tail);
-      const uint32_t to = run->to + (k - run->from);
       if (to < panel.width) {
-        kernels_.add_runs(run, end, k, column, panel.at(0, to), 0);
+        kernels_.add_runs(run, last, k, column, panel.at(0, to), 0);
       } else {
         double* above = panel.update + size_t{to - panel.width} * round_up_rows(panel.tail());
-        kernels_.add_runs(run, end, k, column, above, panel.width);
+        kernels_.add_runs(run, last, k, column, above, panel.width);
       }
     }
   }
 }
 
-// The front of `s`: entries of the matrix and updates of the children.
-Panel Cholesky::assemble(uint32_t s, const double* source) {
-  Panel panel = {value_.data() + supernodes_.panel[s], supernodes_.height(s), supernodes_.width(s),
-                 workspace_.data() + fronts_.update[s], fronts_.child[s] == k_none};
-  const size_t size = supernodes_.panel[s + 1] - supernodes_.panel[s];
-  std::memset(panel.value, 0, size * sizeof(double));
-  for (uint32_t j = supernodes_.first[s]; j < supernodes_.first[s + 1]; ++j) {
-    double* column = panel.at(0, j - supernodes_.first[s]);
+Panel Cholesky::panel_of(uint32_t s) {
+  return {value_.data() + supernodes_.panel[s], supernodes_.height(s), supernodes_.width(s),
+          workspace_.data() + fronts_.update[s], fronts_.child[s] == k_none};
+}
+
+// The columns first .. end of the front of `s`: entries of the matrix and updates of the children.
+void Cholesky::assemble(uint32_t s, const double* source, uint32_t first, uint32_t end) {
+  const Panel panel = panel_of(s);
+  const uint32_t width = panel.width, tail = panel.tail(), rows = round_up_rows(tail);
+  if (first < width) {
+    const size_t from = trapezoid_size(panel.rows(), first);
+    const size_t to = end < width ? trapezoid_size(panel.rows(), end)
+                                  : supernodes_.panel[s + 1] - supernodes_.panel[s];
+    std::memset(panel.value + from, 0, (to - from) * sizeof(double));
+  }
+  for (uint32_t c = first; c < end && c < width; ++c) {
+    const uint32_t j = supernodes_.first[s] + c;
+    double* column = panel.at(0, c);
     for (uint32_t k = lower_.start[j]; k < lower_.start[j + 1]; ++k) {
       column[lower_.index[k]] = source[lower_.source[k]];
     }
   }
-  if (panel.first) return panel;
-  const uint32_t tail = panel.tail(), rows = round_up_rows(tail);
-  for (uint32_t k = 0; k < tail; ++k) {
+  if (panel.first) return;
+  for (uint32_t k = first < width ? 0 : first - width; k + width < end; ++k) {
     const uint32_t top = k / 4 * 4;
     std::memset(panel.update + size_t{k} * rows + top, 0, (rows - top) * sizeof(double));
   }
-  for (uint32_t c = fronts_.child[s]; c != k_none; c = fronts_.sibling[c]) add_child(c, panel);
-  return panel;
+  for (uint32_t c = fronts_.child[s]; c != k_none; c = fronts_.sibling[c]) {
+    add_child(c, panel, first, end);
+  }
+}
+
+// Some columns after the other, with checkpoints between.
+Status Cholesky::assemble_in_parts(uint32_t s, const double* source) {
+  constexpr uint32_t k_entries_per_checkpoint = 1u << 19;
+  const uint32_t height = supernodes_.height(s);
+  const uint32_t most = k_entries_per_checkpoint / height + 1;
+  for (uint32_t first = 0, end = 0; first < height; first = end) {
+    end = height - first < most ? height : first + most;
+    assemble(s, source, first, end);
+    if (end < height) TRY(context_->checkpoint());
+  }
+  return {};
+}
+
+// Returns the first bad column, or k_none.
+uint32_t Cholesky::factor_supernode(uint32_t s, const double* source, const PanelTools& tools) {
+  assemble(s, source, 0, supernodes_.height(s));
+  return factor_panel(tools, panel_of(s));
+}
+
+Status Cholesky::refuse_column(uint32_t s, uint32_t column) const {
+  Place place;
+  place.vertex = order_[supernodes_.first[s] + column];
+  return fail(Code::not_positive_definite, "the matrix is not positive definite", place);
 }
 
 // A batch of tasks under way; bad_*: of each task, where it failed.
@@ -170,48 +222,58 @@ void Cholesky::factor_task(uint32_t index, void* data) {
   Batch& batch = *static_cast<Batch*>(data);
   Cholesky& self = *batch.self;
   const Task& task = self.fronts_.task[batch.first_task + index];
-  const uint32_t slot = self.context_->is_parallel() ? index % self.slots() : 0;
-  const PanelTools tools = {&self.kernels_, self.scratch_.data() + slot * k_update_scratch, 1};
+  const PanelTools tools = {&self.kernels_, self.scratch_.data() + index * k_update_scratch, 1};
   batch.bad_column[index] = k_none;
   for (uint32_t s = task.first; s <= task.root && batch.bad_column[index] == k_none; ++s) {
     batch.bad_supernode[index] = s;
-    batch.bad_column[index] = factor_panel(tools, self.assemble(s, batch.source));
+    batch.bad_column[index] = self.factor_supernode(s, batch.source, tools);
   }
 }
 
-Status Cholesky::refuse_column(uint32_t s, uint32_t column) const {
-  Place place;
-  place.vertex = order_[supernodes_.first[s] + column];
-  return fail(Code::not_positive_definite, "the matrix is not positive definite", place);
-}
-
-Status Cholesky::factor_step(const Step& step, const double* source) {
+// Side by side.
+Status Cholesky::factor_tasks(uint32_t first, uint32_t end, const double* source) {
   Batch batch = {};
   batch.self = this;
   batch.source = source;
-  const bool divided = slots() > 1;
-  for (uint32_t first = step.first_task; first < step.end_task;) {
-    // One by one there is a checkpoint after each task.
-    const uint32_t count = divided ? step.end_task - first : 1;
-    batch.first_task = first;
-    if (divided) {
-      context_->for_each(count, &factor_task, &batch);
-    } else {
-      factor_task(0, &batch);
+  batch.first_task = first;
+  context_->for_each(end - first, &factor_task, &batch);
+  for (uint32_t t = 0; t < end - first; ++t) {
+    if (batch.bad_column[t] != k_none) {
+      return refuse_column(batch.bad_supernode[t], batch.bad_column[t]);
     }
-    for (uint32_t t = 0; t < count; ++t) {
-      if (batch.bad_column[t] != k_none) {
-        return refuse_column(batch.bad_supernode[t], batch.bad_column[t]);
-      }
+  }
+  return context_->checkpoint();
+}
+
+// On this thread, where there may be checkpoints on the way.
+Status Cholesky::factor_one_task(const Task& task, const double* source) {
+  constexpr size_t k_column_overhead = 16;  // multiplications for each row of a column, or so
+  const PanelTools tools = {&kernels_, scratch_.data(), 1};
+  for (uint32_t s = task.first; s <= task.root; ++s) {
+    const uint32_t bad = factor_supernode(s, source, tools);
+    if (bad != k_none) return refuse_column(s, bad);
+    const size_t height = supernodes_.height(s);
+    TRY(count_work(height * height * (supernodes_.width(s) + k_column_overhead) / 2));
+  }
+  return context_->checkpoint();
+}
+
+Status Cholesky::factor_step(const Step& step, const double* source) {
+  if (slots() > 1) {
+    if (step.first_task < step.end_task) {
+      TRY(factor_tasks(step.first_task, step.end_task, source));
     }
-    first += count;
-    TRY(context_->checkpoint());
+  } else {
+    for (uint32_t t = step.first_task; t < step.end_task; ++t) {
+      TRY(factor_one_task(fronts_.task[t], source));
+    }
   }
   const PanelTools tools = {&kernels_, scratch_.data(), slots()};
   for (uint32_t u = step.first_upper; u < step.end_upper; ++u) {
     const uint32_t s = fronts_.upper[u];
     uint32_t bad = k_none;
-    TRY(factor_panel_in_parts(*context_, tools, assemble(s, source), &bad));
+    TRY(assemble_in_parts(s, source));
+    TRY(factor_panel_in_parts(*context_, tools, panel_of(s), &bad));
     if (bad != k_none) return refuse_column(s, bad);
   }
   return {};
@@ -341,7 +403,7 @@ static Lanes lanes_at(double* at, size_t step, uint32_t lanes) {
 
 // y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S: eight columns at a time, so that the panel
 // is read from end to end.
-void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
+Status Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
   size_t step = supernodes_.column_step(s);
@@ -354,16 +416,18 @@ void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
     const uint32_t after = j + columns;
     if (after < width) fetch(block + k_block * step, columns * step);
     solve_triangle(kernels_, triangle_at(block, step, columns, false), j, false, z);
+    TRY(count_work(size_t{height - j} * columns * lanes));
     if (after == height) break;
     kernels_.update({round_up_rows(height - after), lanes, columns, block + columns, step,
                      z.value + j, z.step, 1, z.value + after, z.step, false, false},
                     scratch_.data());
   }
   scatter_lanes(supernodes_.rows(s), height, z, y);
+  return {};
 }
 
 // y_S loses L_TS^T y_T, then y_S := L_SS^-T y_S. Behind the last row the lanes are zero.
-void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
+Status Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
   uint32_t j = (width - 1) / k_block * k_block + k_block;
@@ -388,16 +452,10 @@ void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
                               z.value + after, z.step, z.value + j, z.step});
     }
     solve_triangle(kernels_, triangle_at(block, step, columns, true), j, true, z);
+    TRY(count_work(size_t{height - j} * columns * lanes));
   }
   scatter_lanes(supernodes_.rows(s), width, z, y);
-}
-
-Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 23;
-  *work += size_t{supernodes_.height(s)} * supernodes_.width(s) * lanes;
-  if (*work < k_work_per_checkpoint) return {};
-  *work = 0;
-  return context_->checkpoint();
+  return {};
 }
 
 Status Cholesky::solve(Span<double> x, uint32_t columns) {
@@ -409,27 +467,19 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   const size_t room = right_hand_sides + lanes_size(lane_step(), columns);
   if (workspace_.size() < room) workspace_.clear();
   TRY(workspace_.resize(room));
-  for (uint32_t k = 0; k < n_; ++k) {
+  TRY(in_parts(*context_, n_, [&](size_t k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    double* to = workspace_.data() + size_t{k} * columns;
+    double* to = workspace_.data() + k * columns;
     for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
-  }
+  }));
   for (size_t k = right_hand_sides; k < room; ++k) workspace_[k] = 0.0;
-  size_t work = 0;
-  for (uint32_t s = 0; s < supernodes_.count; ++s) {
-    solve_forward(s, columns);
-    TRY(count_solve(s, columns, &work));
-  }
-  for (uint32_t s = supernodes_.count; s-- > 0;) {
-    solve_backward(s, columns);
-    TRY(count_solve(s, columns, &work));
-  }
-  for (uint32_t k = 0; k < n_; ++k) {
+  for (uint32_t s = 0; s < supernodes_.count; ++s) TRY(solve_forward(s, columns));
+  for (uint32_t s = supernodes_.count; s-- > 0;) TRY(solve_backward(s, columns));
+  return in_parts(*context_, n_, [&](size_t k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    const double* from = workspace_.data() + size_t{k} * columns;
+    const double* from = workspace_.data() + k * columns;
     for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
-  }
-  return {};
+  });
 }
 
 }  // namespace wireskin::sparse

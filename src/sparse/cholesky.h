@@ -48,21 +48,27 @@ class Cholesky {
   size_t scratch_size() const;
   Status allocate_workspace();
   Status locate_entries();
-  Panel assemble(uint32_t s, const double* source);
-  void add_child(uint32_t c, const Panel& panel);
+  Panel panel_of(uint32_t s);
+  void assemble(uint32_t s, const double* source, uint32_t first, uint32_t end);
+  Status assemble_in_parts(uint32_t s, const double* source);
+  void add_child(uint32_t c, const Panel& panel, uint32_t first, uint32_t end);
+  uint32_t factor_supernode(uint32_t s, const double* source, const PanelTools& tools);
   static void factor_task(uint32_t index, void* batch);
+  Status factor_one_task(const Task& task, const double* source);
+  Status factor_tasks(uint32_t first, uint32_t end, const double* source);
   Status factor_step(const Step& step, const double* source);
   Status refuse_column(uint32_t s, uint32_t column) const;
   size_t lane_step() const { return round_up_rows(tallest_) + 4; }
-  void solve_forward(uint32_t s, uint32_t lanes);
-  void solve_backward(uint32_t s, uint32_t lanes);
-  Status count_solve(uint32_t s, uint32_t lanes, size_t* work);
+  Status solve_forward(uint32_t s, uint32_t lanes);
+  Status solve_backward(uint32_t s, uint32_t lanes);
+  Status count_work(size_t work);
 
   Context* context_;
   DenseKernels kernels_;
   uint32_t n_ = 0;
   uint32_t tallest_ = 0;  // rows of a panel, at most
   size_t nonzeros_ = 0;
+  size_t work_ = 0;  // since the last checkpoint
   bool analysed_ = false;
   bool factored_ = false;
   Array<uint32_t> order_;

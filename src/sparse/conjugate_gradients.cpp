@@ -3,11 +3,12 @@
 #include <cfloat>
 #include <cmath>
 
+#include "base/in_parts.h"
+
 namespace wireskin::sparse {
 
 static Status apply_symmetric(void* self, Span<const double> x, Span<double> y) {
-  multiply_symmetric(*static_cast<const Csc*>(self), x, y, 1);
-  return {};
+  return multiply_symmetric(*static_cast<const Csc*>(self), x, y, 1);
 }
 
 LinearOperator symmetric_operator(const Csc& lower) {
@@ -16,7 +17,7 @@ LinearOperator symmetric_operator(const Csc& lower) {
 }
 
 static Status apply_inverse(void* self, Span<const double> x, Span<double> y) {
-  for (size_t i = 0; i < x.size(); ++i) y[i] = x[i];
+  if (!x.empty()) std::memcpy(y.data(), x.data(), x.size() * sizeof(double));
   return static_cast<Cholesky*>(self)->solve(y, 1);
 }
 
@@ -26,24 +27,30 @@ LinearOperator inverse_operator(Cholesky& factor) {
 
 Status Jacobi::build(const Csc& lower) {
   TRY(diagonal_.resize(lower.cols));
-  for (uint32_t j = 0; j < lower.cols; ++j) diagonal_[j] = lower.value[lower.start[j]];
-  return {};
+  return in_parts(diagonal_.context(), lower.cols,
+                  [&](size_t j) { diagonal_[j] = lower.value[lower.start[j]]; });
 }
 
 Status Jacobi::apply(void* self, Span<const double> x, Span<double> y) {
   const Array<double>& diagonal = static_cast<const Jacobi*>(self)->diagonal_;
-  for (size_t i = 0; i < x.size(); ++i) y[i] = x[i] / diagonal[i];
+  return in_parts(diagonal.context(), x.size(), [&](size_t i) { y[i] = x[i] / diagonal[i]; });
+}
+
+static Status dot(Context& context, Span<const double> a, Span<const double> b, double* result) {
+  double sum = 0.0;
+  TRY(in_parts(context, a.size(), [&](size_t i) { sum += a[i] * b[i]; }));
+  *result = sum;
   return {};
 }
 
-static double dot(Span<const double> a, Span<const double> b) {
-  double sum = 0.0;
-  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+static Status norm(Context& context, Span<const double> a, double* result) {
+  TRY(dot(context, a, a, result));
+  *result = std::sqrt(*result);
+  return {};
 }
 
-static void add_multiple(Span<double> y, double factor, Span<const double> x) {
-  for (size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
+static Status add_multiple(Context& context, Span<double> y, double factor, Span<const double> x) {
+  return in_parts(context, y.size(), [&](size_t i) { y[i] += factor * x[i]; });
 }
 
 static bool is_positive(double value) {
@@ -71,31 +78,31 @@ struct CgState {
 static Status iterate(Context& context, CgState* s, double goal, uint32_t max_iterations,
                       uint32_t* iterations) {
   const Span<double> r = s->r.span(), z = s->z.span(), p = s->p.span(), q = s->q.span();
-  double rz_before = 0.0;
+  double rz = 0.0, rz_before = 0.0, curvature = 0.0, length = 0.0;
   for (bool first = true; *iterations < max_iterations; first = false) {
     TRY(context.checkpoint());
     TRY(s->preconditioner->apply(s->preconditioner->self, r, z));
-    const double rz = dot(r, z);
+    TRY(dot(context, r, z, &rz));
     if (!is_positive(rz)) return break_down();
     const double beta = first ? 0.0 : rz / rz_before;
-    for (size_t i = 0; i < p.size(); ++i) p[i] = first ? z[i] : z[i] + beta * p[i];
+    TRY(in_parts(context, p.size(), [&](size_t i) { p[i] = first ? z[i] : z[i] + beta * p[i]; }));
     TRY(s->a->apply(s->a->self, p, q));
-    const double curvature = dot(p, q);
+    TRY(dot(context, p, q, &curvature));
     if (!is_positive(curvature)) return break_down();
     const double alpha = rz / curvature;
-    add_multiple(s->x, alpha, p);
-    add_multiple(r, -alpha, q);
+    TRY(add_multiple(context, s->x, alpha, p));
+    TRY(add_multiple(context, r, -alpha, q));
     rz_before = rz;
     ++*iterations;
-    if (!(std::sqrt(dot(r, r)) > goal)) break;
+    TRY(norm(context, r, &length));
+    if (!(length > goal)) break;
   }
   return {};
 }
 
-static Status true_residual(CgState* s) {
+static Status true_residual(Context& context, CgState* s) {
   TRY(s->a->apply(s->a->self, s->x, s->r.span()));
-  for (size_t i = 0; i < s->x.size(); ++i) s->r[i] = s->b[i] - s->r[i];
-  return {};
+  return in_parts(context, s->x.size(), [&](size_t i) { s->r[i] = s->b[i] - s->r[i]; });
 }
 
 Status conjugate_gradients(Context& context, const LinearOperator& a,
@@ -108,7 +115,8 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
   TRY(state.z.resize(b.size()));
   TRY(state.p.resize(b.size()));
   TRY(state.q.resize(b.size()));
-  const double scale = std::sqrt(dot(b, b));
+  double scale = 0.0, length = 0.0;
+  TRY(norm(context, b, &scale));
   if (scale == 0.0) {
     for (double& entry : x) entry = 0.0;
     result->converged = true;
@@ -116,8 +124,9 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
   }
   double before = 0.0;
   for (bool first = true;; first = false) {
-    TRY(true_residual(&state));
-    result->residual = std::sqrt(dot(state.r.span(), state.r.span())) / scale;
+    TRY(true_residual(context, &state));
+    TRY(norm(context, state.r.span(), &length));
+    result->residual = length / scale;
     if (!(result->residual <= DBL_MAX)) return break_down();
     result->converged = result->residual <= options.tolerance;
     if (result->converged || result->iterations >= options.max_iterations) return {};

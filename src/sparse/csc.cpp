@@ -1,5 +1,6 @@
 #include "sparse/csc.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 
 namespace wireskin::sparse {
@@ -16,10 +17,12 @@ bool is_lower_triangle(const Csc& a) {
   return true;
 }
 
-void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns) {
+Status multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y,
+                          uint32_t columns) {
   WIRESKIN_ASSERT(x.size() == size_t{lower.cols} * columns && y.size() == x.size());
   for (double& entry : y) entry = 0.0;
   for (uint32_t j = 0; j < lower.cols; ++j) {
+    TRY(checkpoint_at_column(lower.start.context(), j));
     const double* xj = x.data() + size_t{j} * columns;
     double* yj = y.data() + size_t{j} * columns;
     const uint32_t diagonal = lower.start[j];
@@ -34,6 +37,7 @@ void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, 
       }
     }
   }
+  return {};
 }
 
 Status append_column(Span<const uint32_t> rows, Span<const double> sum, Csc* matrix) {
@@ -54,10 +58,10 @@ Status transpose(const Csc& a, Csc* result) {
   TRY(result->row.resize(entries));
   TRY(result->value.resize(entries));
   Array<uint32_t> next(a.start.context());
-  TRY(next.reserve(size_t{a.rows} + 1));
-  for (const uint32_t i : a.row) ++result->start[i];
+  TRY(next.resize(size_t{a.rows} + 1));
+  TRY(in_parts(a.start.context(), entries, [&](size_t k) { ++result->start[a.row[k]]; }));
   starts_from_counts(result->start.span());
-  TRY(next.copy(result->start.span()));
+  TRY(in_parts(a.start.context(), next.size(), [&](size_t i) { next[i] = result->start[i]; }));
   for (uint32_t j = 0; j < a.cols; ++j) {
     TRY(checkpoint_at_column(a.start.context(), j));
     for (uint32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
@@ -90,7 +94,7 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     }
   }
   starts_from_counts(result->start.span());
-  for (uint32_t j = 0; j <= n; ++j) next[j] = result->start[j];
+  TRY(in_parts(context, next.size(), [&](size_t j) { next[j] = result->start[j]; }));
   for (uint32_t j = 0; j < n; ++j) {
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {

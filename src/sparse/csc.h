@@ -26,7 +26,7 @@ bool is_lower_triangle(const Csc& a);
 
 // y = A x for the symmetric matrix whose lower triangle is `lower`. Each column of the block is
 // summed in the same order whatever `columns` is.
-void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns);
+Status multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns);
 
 // Appends a column's entries to the rows and values of a matrix that is being gathered: `rows`,
 // distinct and in any order, and of each its value in `sum`, which has an entry for every row of
@@ -47,7 +47,7 @@ struct Pattern {
 };
 
 // Loops over columns that do a few operations per entry pause for a checkpoint after this many.
-inline constexpr uint32_t k_columns_per_checkpoint = 1u << 14;
+inline constexpr uint32_t k_columns_per_checkpoint = 1u << 12;
 
 inline Status checkpoint_at_column(Context& context, uint32_t j) {
   return (j + 1) % k_columns_per_checkpoint == 0 ? context.checkpoint() : Status{};

@@ -1,5 +1,7 @@
 #include "sparse/elimination_tree.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::sparse {
 
 Status elimination_tree(const Pattern& upper, Array<uint32_t>* parent) {
@@ -37,6 +39,7 @@ Status postorder(Span<const uint32_t> parent, Array<uint32_t>* order) {
   TRY(order->reserve(n));
   order->clear();
   for (uint32_t j = n; j-- > 0;) {
+    TRY(checkpoint_at_column(order->context(), j));
     if (parent[j] == k_none) continue;
     sibling[j] = first_child[parent[j]];
     first_child[parent[j]] = j;
@@ -46,6 +49,7 @@ Status postorder(Span<const uint32_t> parent, Array<uint32_t>* order) {
     uint32_t node = first_leaf(first_child, root);
     order->push_reserved(node);
     while (node != root) {
+      TRY(checkpoint_at_column(order->context(), static_cast<uint32_t>(order->size())));
       const bool last = sibling[node] == k_none;
       node = last ? parent[node] : first_leaf(first_child, sibling[node]);
       order->push_reserved(node);
@@ -80,6 +84,7 @@ Status column_counts(const Pattern& lower, Span<const uint32_t> parent, Array<ui
   TRY(count->assign(n, 0));
   for (uint32_t j = 0; j < n; ++j) first[j] = ancestor[j] = j;
   for (uint32_t j = 0; j < n; ++j) {
+    TRY(checkpoint_at_column(context, j));
     if (first[j] == j) ++(*count)[j];
     if (parent[j] != k_none && first[j] < first[parent[j]]) first[parent[j]] = first[j];
   }
@@ -97,10 +102,9 @@ Status column_counts(const Pattern& lower, Span<const uint32_t> parent, Array<ui
     }
     if (parent[j] != k_none) ancestor[j] = parent[j];
   }
-  for (uint32_t j = 0; j < n; ++j) {
+  return in_parts(context, n, [&](size_t j) {
     if (parent[j] != k_none) (*count)[parent[j]] += (*count)[j];
-  }
-  return {};
+  });
 }
 
 }  // namespace wireskin::sparse

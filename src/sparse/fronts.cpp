@@ -78,6 +78,7 @@ static Status link_tree(const Supernodes& s, Fronts* f) {
   TRY(f->child.assign(s.count, k_none));
   TRY(f->sibling.assign(s.count, k_none));
   for (uint32_t k = s.count; k-- > 0;) {
+    TRY(checkpoint_at_column(f->child.context(), k));
     if (tail_of(s, k) == 0) continue;
     const uint32_t above = s.of_column[s.rows(k)[s.width(k)]];
     f->parent[k] = above;
@@ -89,11 +90,12 @@ static Status link_tree(const Supernodes& s, Fronts* f) {
 
 // The rows of a tail are among those of the parent, and both ascend.
 static Status list_runs(const Supernodes& s, Fronts* f) {
+  constexpr uint32_t k_rows_per_checkpoint = 1u << 18;
   TRY(f->run_start.resize(size_t{s.count} + 1));
   TRY(f->run.reserve(size_t{s.count} * 4));
   f->run.clear();
+  uint32_t rows_met = 0;
   for (uint32_t k = 0; k < s.count; ++k) {
-    TRY(checkpoint_at_column(f->run.context(), k));
     f->run_start[k] = static_cast<uint32_t>(f->run.size());
     const uint32_t tail = tail_of(s, k);
     if (tail == 0) continue;
@@ -106,6 +108,10 @@ static Status list_runs(const Supernodes& s, Fronts* f) {
       for (++i, ++to; i < tail && rows[i] == above[to]; ++i, ++to) ++run.length;
       TRY(f->run.push(run));
     }
+    rows_met += to;
+    if (rows_met < k_rows_per_checkpoint) continue;
+    rows_met = 0;
+    TRY(f->run.context().checkpoint());
   }
   f->run_start[s.count] = static_cast<uint32_t>(f->run.size());
   return {};
@@ -121,6 +127,7 @@ static Status cut_tasks(const Supernodes& s, Fronts* f) {
   TRY(work.resize(s.count));
   TRY(first.resize(s.count));
   for (uint32_t k = 0; k < s.count; ++k) {
+    TRY(checkpoint_at_column(context, k));
     work[k] = work_of(s, k);
     first[k] = k;
     for (uint32_t c = f->child[k]; c != k_none; c = f->sibling[c]) {
@@ -137,6 +144,7 @@ static Status cut_tasks(const Supernodes& s, Fronts* f) {
   f->task.clear();
   f->upper.clear();
   for (uint32_t k = 0; k < s.count; ++k) {
+    TRY(checkpoint_at_column(context, k));
     const bool light = work[k] <= limit;
     const bool top = f->parent[k] == k_none || work[f->parent[k]] > limit;
     if (light && top) TRY(f->task.push({first[k], k}));

@@ -3,6 +3,7 @@
 #include <cfloat>
 #include <cmath>
 
+#include "base/in_parts.h"
 #include "sparse/elimination_tree.h"
 
 namespace wireskin::sparse {
@@ -97,11 +98,11 @@ Status Ldl::factor(const Csc& lower) {
   if (lower.cols != n || lower.value.size() != upper_.source.size()) {
     return fail(Code::bad_argument, "the matrix has not the pattern that was analysed");
   }
-  for (uint32_t j = 0; j < n; ++j) {
+  TRY(in_parts(*context_, n, [&](size_t j) {
     filled_[j] = start_[j];
     visited_[j] = k_none;
     column_[j] = 0.0;
-  }
+  }));
   for (uint32_t k = 0; k < n; ++k) {
     const uint32_t top = find_row_pattern(k);
     for (uint32_t p = upper_.start[k]; p < upper_.start[k + 1]; ++p) {
@@ -139,10 +140,10 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
   WIRESKIN_ASSERT(x.size() == size_t{n} * columns);
   TRY(permuted_.resize(x.size()));
   double* y = permuted_.data();
-  for (uint32_t k = 0; k < n; ++k) {
+  TRY(in_parts(*context_, n, [&](size_t k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) y[size_t{k} * columns + c] = from[c];
-  }
+    for (uint32_t c = 0; c < columns; ++c) y[k * columns + c] = from[c];
+  }));
   for (uint32_t j = 0; j < n; ++j) {
     const double* yj = y + size_t{j} * columns;
     for (uint32_t p = start_[j]; p < start_[j + 1]; ++p) {
@@ -160,12 +161,11 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
     }
     TRY(count_work(size_t{start_[j + 1] - start_[j]} * columns));
   }
-  for (uint32_t k = 0; k < n; ++k) {
+  return in_parts(*context_, n, [&](size_t k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    const double* from = y + size_t{k} * columns;
+    const double* from = y + k * columns;
     for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
-  }
-  return {};
+  });
 }
 
 // Z = A^-1 satisfies Z L = L^-T D^-1, whose lower triangle is D^-1. So column j of Z below the

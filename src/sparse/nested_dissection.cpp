@@ -1,5 +1,6 @@
 #include "sparse/nested_dissection.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 
 namespace wireskin::sparse {
@@ -125,15 +126,16 @@ static double greater(double a, double b) {
 
 // What the patches are like and which touch each other.
 static Status survey_patches(Dissector* d) {
+  Context& context = d->start.context();
   const Geometry& g = d->geometry;
   const uint32_t vertices = static_cast<uint32_t>(g.position.size());
   uint32_t count = 0;
   for (const uint32_t p : g.patch) count = p >= count ? p + 1 : count;
   TRY(d->centre.assign(count, PatchCentre{}));
   TRY(d->mixed.assign(vertices, 0));
-  Array<PatchContact> touch(d->start.context());
+  Array<PatchContact> touch(context);
   for (uint32_t v = 0; v < vertices; ++v) {
-    TRY(checkpoint_at_column(d->start.context(), v));
+    TRY(checkpoint_at_column(context, v));
     const uint32_t p = g.patch[v];
     PatchCentre& c = d->centre[p];
     c.sum += g.position[v];
@@ -181,11 +183,13 @@ static bool key_less(const AxisKey& a, const AxisKey& b) {
 }
 
 // Moves the `count` least keys to the front: Hoare's selection. A run of bad pivots ends in a sort.
-static void select_least(Span<AxisKey> keys, size_t count) {
+static Status select_least(Context& context, Span<AxisKey> keys, size_t count) {
+  constexpr ptrdiff_t k_long = 1 << 16;
   AxisKey* first = keys.begin();
   AxisKey* end = keys.end();
   AxisKey* const cut = first + count;
   for (int budget = 96; end - first > 16 && budget > 0; --budget) {
+    if (end - first > k_long) TRY(context.checkpoint());
     AxisKey* middle = partition(first, end, key_less);
     if (cut < middle) {
       end = middle;
@@ -195,6 +199,7 @@ static void select_least(Span<AxisKey> keys, size_t count) {
   }
   if (cut > first && cut < end)
     sort(Span<AxisKey>{first, static_cast<size_t>(end - first)}, key_less);
+  return {};
 }
 
 // Orders the patches of a stretch along one axis of space and returns how many go to the left:
@@ -238,9 +243,10 @@ static void forget_patch_sides(const Stretch& s, Dissector* d) {
   for (uint32_t k = s.patch_first; k < s.patch_end; ++k) d->patch_side[d->patches[k]] = 0;
 }
 
-// Splits a stretch between whole patches along the axis whose cut is shortest. Returns the first
-// vertex of the right side, and marks both sides.
-static uint32_t split_between_patches(const Stretch& s, Dissector* d, uint32_t* patch_middle) {
+// Splits a stretch between whole patches along the axis whose cut is shortest, and marks both
+// sides. `middle`: the first vertex of the right one.
+static Status split_between_patches(const Stretch& s, Dissector* d, uint32_t* patch_middle,
+                                    uint32_t* middle) {
   int best_axis = 0;
   uint32_t best = k_none;
   for (int axis = 0; axis < 3; ++axis) {
@@ -254,51 +260,55 @@ static uint32_t split_between_patches(const Stretch& s, Dissector* d, uint32_t* 
   const uint32_t left = halve_patches(s, best_axis, d);
   weigh_cut(s, left, d);
   *patch_middle = s.patch_first + left;
-  uint32_t middle = s.first, write = 0;
-  for (uint32_t k = s.first; k < s.end; ++k) {
-    const uint32_t v = d->order[k];
+  Context& context = d->order.context();
+  uint32_t left_end = s.first, write = 0;
+  TRY(in_parts(context, s.end - s.first, [&](size_t k) {
+    const uint32_t v = d->order[s.first + k];
     d->side[v] = d->patch_side[d->geometry.patch[v]];
     if (d->side[v] == 1) {
-      d->order[middle++] = v;
+      d->order[left_end++] = v;
     } else {
       d->keys[write++].vertex = v;
     }
-  }
-  for (uint32_t k = 0; k < write; ++k) d->order[middle + k] = d->keys[k].vertex;
+  }));
+  TRY(in_parts(context, write, [&](size_t k) { d->order[left_end + k] = d->keys[k].vertex; }));
   forget_patch_sides(s, d);
-  return middle;
+  *middle = left_end;
+  return {};
 }
 
 // Splits a stretch of one patch in the middle of its longest side. `window`: only vertices with
 // keys in it can touch the other side. The keys are left in the order of the vertices.
-static uint32_t split_patch(const Stretch& s, Dissector* d, double window[2]) {
+static Status split_patch(const Stretch& s, Dissector* d, uint32_t* middle, double window[2]) {
   const Span<const Vec3> position = d->geometry.position;
+  Context& context = d->order.context();
+  const uint32_t count = s.end - s.first, half = count / 2;
   Vec3 low = position[d->order[s.first]], high = low;
-  for (uint32_t k = s.first; k < s.end; ++k) {
-    const Vec3& p = position[d->order[k]];
+  TRY(in_parts(context, count, [&](size_t k) {
+    const Vec3& p = position[d->order[s.first + k]];
     low = {-greater(-low.x, -p.x), -greater(-low.y, -p.y), -greater(-low.z, -p.z)};
     high = {greater(high.x, p.x), greater(high.y, p.y), greater(high.z, p.z)};
-  }
+  }));
   const Vec3 size = high - low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const uint32_t count = s.end - s.first, half = count / 2;
-  for (uint32_t k = 0; k < count; ++k) {
+  TRY(in_parts(context, count, [&](size_t k) {
     const uint32_t v = d->order[s.first + k];
     d->keys[k] = {along(position[v], axis), v};
-  }
-  select_least(d->keys.span().part(0, count), half);
+  }));
+  TRY(select_least(context, d->keys.span().part(0, count), half));
   double greatest_left = d->keys[0].key, least_right = d->keys[half].key;
-  for (uint32_t k = 0; k < count; ++k) {
+  TRY(in_parts(context, count, [&](size_t k) {
     const uint32_t v = d->keys[k].vertex;
     d->order[s.first + k] = v;
     d->side[v] = k < half ? 1 : 2;
     if (k < half) greatest_left = greater(greatest_left, d->keys[k].key);
     if (k >= half) least_right = -greater(-least_right, -d->keys[k].key);
-  }
+  }));
   const double reach = along(d->centre[d->geometry.patch[d->order[s.first]]].reach, axis);
   window[0] = least_right - reach;
   window[1] = greatest_left + reach;
-  return s.first + half;
+  *middle = s.first + half;
+  return {};
 }
 
 // Whether the vertex touches the other side of the split under way.
@@ -312,13 +322,15 @@ static bool touches(const Dissector& d, uint32_t v, uint8_t other) {
 // Lists the places of those of first .. end that touch the other side; those that do not pass
 // `near` cannot.
 template <typename Near>
-static uint32_t list_layer(uint32_t first, uint32_t end, uint8_t other, const Near& near,
-                           Dissector* d, uint32_t* layer) {
+static Status list_layer(uint32_t first, uint32_t end, uint8_t other, const Near& near,
+                         Dissector* d, uint32_t* layer, uint32_t* layer_size) {
   uint32_t count = 0;
-  for (uint32_t k = first; k < end; ++k) {
+  TRY(in_parts(d->order.context(), end - first, [&](size_t i) {
+    const uint32_t k = first + static_cast<uint32_t>(i);
     if (near(k) && touches(*d, d->order[k], other)) layer[count++] = k;
-  }
-  return count;
+  }));
+  *layer_size = count;
+  return {};
 }
 
 // The columns of the vertices at these places.
@@ -338,21 +350,22 @@ static Status divide(const Stretch& s, Dissector* d) {
   uint32_t patch_middle = s.patch_end, middle = 0, left_layer = 0, right_layer = 0;
   uint32_t* const left_place = d->layer.data();
   if (s.patch_end - s.patch_first > 1) {
-    middle = split_between_patches(s, d, &patch_middle);
+    TRY(split_between_patches(s, d, &patch_middle, &middle));
     const auto near = [&](uint32_t k) { return d->mixed[d->order[k]] != 0; };
-    left_layer = list_layer(s.first, middle, 2, near, d, left_place);
-    right_layer = list_layer(middle, s.end, 1, near, d, left_place + left_layer);
+    TRY(list_layer(s.first, middle, 2, near, d, left_place, &left_layer));
+    TRY(list_layer(middle, s.end, 1, near, d, left_place + left_layer, &right_layer));
   } else {
     double window[2];
-    middle = split_patch(s, d, window);
+    TRY(split_patch(s, d, &middle, window));
     const auto near = [&](uint32_t k) {
       const double key = d->keys[k - s.first].key;
       return key >= window[0] && key <= window[1];
     };
-    left_layer = list_layer(s.first, middle, 2, near, d, left_place);
-    right_layer = list_layer(middle, s.end, 1, near, d, left_place + left_layer);
+    TRY(list_layer(s.first, middle, 2, near, d, left_place, &left_layer));
+    TRY(list_layer(middle, s.end, 1, near, d, left_place + left_layer, &right_layer));
   }
-  for (uint32_t k = s.first; k < s.end; ++k) d->side[d->order[k]] = 0;
+  TRY(in_parts(d->order.context(), s.end - s.first,
+               [&](size_t k) { d->side[d->order[s.first + k]] = 0; }));
   d->work += s.end - s.first;
   uint32_t left_size = middle - s.first, right_size = s.end - middle;
   if (weigh_layer(*d, left_place, left_layer) <=
@@ -405,12 +418,12 @@ Status nested_dissection(const Csc& lower, const Geometry& geometry, Array<uint3
   Array<uint32_t> first(context);
   TRY(first.assign(size_t{vertices} + 1, lower.cols));
   for (uint32_t j = lower.cols; j-- > 0;) first[vertex_of(geometry, j)] = j;
-  for (const uint32_t v : d.order) {
+  return in_parts(context, vertices, [&](size_t k) {
+    const uint32_t v = d.order[k];
     for (uint32_t j = first[v]; j < lower.cols && vertex_of(geometry, j) == v; ++j) {
       order->push_reserved(j);
     }
-  }
-  return {};
+  });
 }
 
 }  // namespace wireskin::sparse

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/in_parts.h"
+
 namespace wireskin::sparse {
 
 // The quotient graph in the middle of an elimination. A node is a variable (a column still to be
@@ -102,12 +104,12 @@ static Status load_lists(const Csc& lower, QuotientGraph* g) {
       ++g->length[lower.row[k]];
     }
   }
-  for (uint32_t i = 0; i < g->n; ++i) {
+  TRY(in_parts(context, g->n, [&](size_t i) {
     g->start[i] = g->list_end;
     g->list_end += g->length[i];
     g->length[i] = 0;
-    g->member_last[i] = i;
-  }
+    g->member_last[i] = static_cast<uint32_t>(i);
+  }));
   for (uint32_t j = 0; j < g->n; ++j) {
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j] + 1; k < lower.start[j + 1]; ++k) {
@@ -173,14 +175,15 @@ static uint32_t take_least_degree(QuotientGraph* g) {
 
 // Moves the live lists to the front. Each list's first entry is parked in `start` and replaced by
 // the complement of its owner, which no index can be, so that one scan finds the lists.
-static void compress_lists(QuotientGraph* g) {
-  for (uint32_t i = 0; i < g->n; ++i) {
-    if (g->length[i] == 0) continue;
+static Status compress_lists(QuotientGraph* g) {
+  Context& context = g->list.context();
+  TRY(in_parts(context, g->n, [&](size_t i) {
+    if (g->length[i] == 0) return;
     const uint32_t first = g->list[g->start[i]];
-    g->list[g->start[i]] = ~i;
+    g->list[g->start[i]] = ~static_cast<uint32_t>(i);
     g->start[i] = first;
-  }
-  uint32_t write = 0;
+  }));
+  uint32_t write = 0, lists = 0;
   for (uint32_t read = 0; read < g->list_end;) {
     const uint32_t owner = ~g->list[read++];
     if (owner >= g->n) continue;
@@ -188,9 +191,11 @@ static void compress_lists(QuotientGraph* g) {
     g->start[owner] = write;
     g->list[write++] = first;
     for (uint32_t k = 1; k < g->length[owner]; ++k) g->list[write++] = g->list[read++];
+    TRY(checkpoint_at_column(context, lists++));
   }
   g->work += g->list_end;
   g->list_end = write;
+  return {};
 }
 
 static void append_members(QuotientGraph* g, uint32_t to, uint32_t from) {
@@ -226,9 +231,9 @@ static uint32_t bound_element(const QuotientGraph& g, uint32_t p) {
 
 // Turns the variable `p` into an element: the union of its variables and of the variables of its
 // elements, which are absorbed. Without elements it shrinks in place.
-static void form_element(QuotientGraph* g, uint32_t p) {
+static Status form_element(QuotientGraph* g, uint32_t p) {
   if (g->elements[p] != 0 && bound_element(*g, p) > g->list.size() - g->list_end) {
-    compress_lists(g);
+    TRY(compress_lists(g));
   }
   ++g->step;
   g->seen[p] = g->step;
@@ -247,6 +252,7 @@ static void form_element(QuotientGraph* g, uint32_t p) {
   g->start[p] = to;
   g->length[p] = write - to;
   g->elements[p] = 0;
+  return {};
 }
 
 // For every element e next to the new element `p`: the weight of e's variables outside p.
@@ -401,31 +407,32 @@ static void close_element(QuotientGraph* g, uint32_t p) {
   g->length[p] = write - g->start[p];
 }
 
-static void eliminate(QuotientGraph* g, uint32_t p) {
+static Status eliminate(QuotientGraph* g, uint32_t p) {
   g->remaining -= g->weight[p];
   g->weight[p] = 0;
   g->pivots.push_reserved(p);
-  form_element(g, p);
+  TRY(form_element(g, p));
   weigh_outside(g, p);
   for (uint32_t k = g->start[p]; k < g->start[p] + g->length[p]; ++k) {
     update_variable(g, p, g->list[k]);
   }
   merge_indistinguishable(g, p);
   close_element(g, p);
+  return {};
 }
 
 // Each pivot, then the columns that went with it; the rows set aside come last.
-static void write_order(QuotientGraph* g, Array<uint32_t>* order) {
+static Status write_order(QuotientGraph* g, Array<uint32_t>* order) {
   for (uint32_t& m : g->mark) m = 0;
-  for (const uint32_t p : g->pivots) {
-    for (uint32_t i = p; i != k_none; i = g->member_next[i]) {
+  TRY(in_parts(order->context(), g->pivots.size(), [&](size_t k) {
+    for (uint32_t i = g->pivots[k]; i != k_none; i = g->member_next[i]) {
       g->mark[i] = 1;
       order->push_reserved(i);
     }
-  }
-  for (uint32_t i = 0; i < g->n; ++i) {
-    if (g->mark[i] == 0) order->push_reserved(i);
-  }
+  }));
+  return in_parts(order->context(), g->n, [&](size_t i) {
+    if (g->mark[i] == 0) order->push_reserved(static_cast<uint32_t>(i));
+  });
 }
 
 Status minimum_degree(const Csc& lower, Array<uint32_t>* order) {
@@ -440,13 +447,12 @@ Status minimum_degree(const Csc& lower, Array<uint32_t>* order) {
   set_dense_aside(&graph);
   TRY(insert_all(&graph));
   while (graph.remaining > 0) {
-    eliminate(&graph, take_least_degree(&graph));
+    TRY(eliminate(&graph, take_least_degree(&graph)));
     if (graph.work < k_work_per_checkpoint) continue;
     graph.work = 0;
     TRY(context.checkpoint());
   }
-  write_order(&graph, order);
-  return {};
+  return write_order(&graph, order);
 }
 
 }  // namespace wireskin::sparse

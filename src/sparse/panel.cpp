@@ -17,12 +17,19 @@ struct ColumnBlock {
   DiagonalBlock diagonal[k_diagonal_blocks];
 };
 
+// Some columns of the update matrix and some of the panel's columns, whose products they lose.
+struct TailBlock {
+  uint32_t first, count;
+  uint32_t from, depth;
+};
+
 // What the threads share while they divide a part of the work: a chunk each.
 struct PanelParts {
   const PanelTools* tools;
   const Panel* panel;
   const ColumnBlock* block;
-  uint32_t first, end;  // rows of the panel, or columns of the update
+  const TailBlock* tail;
+  uint32_t first, end;  // rows of the panel, or columns of the update, or its rows
   uint32_t chunk;
   void (*part)(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch);
 };
@@ -123,6 +130,20 @@ static void update_tail(const PanelParts& parts, uint32_t first, uint32_t end, d
       scratch);
 }
 
+// The rows first .. end of a block of the update matrix, from its diagonal on.
+static void update_tail_rows(const PanelParts& parts, uint32_t first, uint32_t end,
+                             double* scratch) {
+  const Panel& panel = *parts.panel;
+  const TailBlock& block = *parts.tail;
+  const size_t step = panel.step(block.from), tail_step = round_up_rows(panel.tail());
+  parts.tools->kernels->update(
+      {end - first, block.count, block.depth, panel.at(panel.width + first, block.from), step,
+       panel.at(panel.width + block.first, block.from), 1, step,
+       panel.update + block.first * tail_step + first, tail_step, first == block.first,
+       panel.first && block.from == 0, true, false},
+      scratch);
+}
+
 static ColumnBlock block_at(const Panel& panel, uint32_t first) {
   ColumnBlock block;
   block.first = first;
@@ -138,10 +159,14 @@ uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
     if (bad != k_none) return bad;
   }
   if (panel.tail() > 0) {
-    update_tail({&tools, &panel, nullptr, 0, 0, 0, nullptr}, 0, panel.tail(), tools.scratch);
+    update_tail({&tools, &panel, nullptr, nullptr, 0, 0, 0, nullptr}, 0, panel.tail(),
+                tools.scratch);
   }
   return k_none;
 }
+
+// Multiplications of one thread between two checkpoints, about.
+static constexpr double k_most_work = 2.5e7;
 
 static void run_slot(uint32_t slot, void* data) {
   const PanelParts& parts = *static_cast<const PanelParts*>(data);
@@ -154,7 +179,7 @@ static void run_slot(uint32_t slot, void* data) {
 // checkpoint is never far; `work`: multiplications for each row or column.
 static Status run_parts(Context& context, PanelParts parts, double work) {
   constexpr uint32_t k_least_chunk = 64;
-  constexpr double k_most_work = 5e7, k_worth_dividing = 5e5;
+  constexpr double k_worth_dividing = 5e5;
   const uint32_t slots = parts.tools->slots;
   const uint32_t end = parts.end;
   const uint32_t share = slots == 1 ? end - parts.first : (end - parts.first) / slots;
@@ -177,6 +202,28 @@ static Status run_parts(Context& context, PanelParts parts, double work) {
   return {};
 }
 
+// A few columns at a time; where even these would take long, a few terms of some of their rows.
+static Status update_tail_in_parts(Context& context, const PanelTools& tools, const Panel& panel) {
+  const uint32_t tail = panel.tail();
+  const double work = double{1} * tail * panel.width;
+  if (work * k_panel_block <= k_most_work) {
+    return run_parts(context, {&tools, &panel, nullptr, nullptr, 0, tail, 0, &update_tail}, work);
+  }
+  TailBlock block = {};
+  for (; block.first < tail; block.first += block.count) {
+    block.count = tail - block.first < k_panel_block ? tail - block.first : k_panel_block;
+    for (block.from = 0; block.from < panel.width; block.from += block.depth) {
+      const uint32_t left = panel.width - block.from;
+      block.depth = left < k_block_depth ? left : k_block_depth;
+      TRY(run_parts(
+          context,
+          {&tools, &panel, nullptr, &block, block.first, round_up_rows(tail), 0, &update_tail_rows},
+          double{k_panel_block} * k_block_depth));
+    }
+  }
+  return {};
+}
+
 Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
                              uint32_t* bad_column) {
   *bad_column = k_none;
@@ -186,19 +233,18 @@ Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Pa
     const uint32_t below = round_up_rows(first + block.count);
     update_columns(tools, panel, 0, first, block.count, first, below, tools.scratch);
     if (below < rows) {
-      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &update_rows},
+      TRY(context.checkpoint());
+      TRY(run_parts(context, {&tools, &panel, &block, nullptr, below, rows, 0, &update_rows},
                     double{k_panel_block} * (first + 1)));
     }
     *bad_column = factor_block(tools, panel, below, &block);
     if (*bad_column != k_none) return {};
     if (below < rows) {
-      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &solve_rows_below},
+      TRY(run_parts(context, {&tools, &panel, &block, nullptr, below, rows, 0, &solve_rows_below},
                     0.5 * k_panel_block * k_panel_block));
     }
   }
-  if (panel.tail() == 0) return {};
-  return run_parts(context, {&tools, &panel, nullptr, 0, panel.tail(), 0, &update_tail},
-                   double{1} * panel.tail() * panel.width);
+  return panel.tail() == 0 ? Status{} : update_tail_in_parts(context, tools, panel);
 }
 
 }  // namespace wireskin::sparse

@@ -31,7 +31,7 @@ struct Factors {
 
 // Columns may be long, so the multiplications are counted instead of the columns.
 static Status pause_for_checkpoint(Context& context, size_t* work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 19;
+  constexpr size_t k_work_per_checkpoint = size_t{1} << 18;
   if (*work < k_work_per_checkpoint) return {};
   *work = 0;
   return context.checkpoint();
@@ -72,6 +72,7 @@ static Status estimate_entries(const Factors& factors, Accumulator* gathered, si
   size_t total = 0;
   uint32_t j = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
+    TRY(checkpoint_at_column(gathered->mark.context(), column));
     if (factors.unknown[column] == k_none) continue;
     if (j % k_step == 0) {
       gather_column(factors, column, j, gathered, work);

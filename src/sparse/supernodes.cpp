@@ -44,7 +44,12 @@ static Status partition_columns(Span<const uint32_t> parent, Span<const uint32_t
                                 Array<SupernodeBlock>* blocks) {
   const uint32_t n = static_cast<uint32_t>(parent.size());
   TRY(blocks->reserve(n));
+  uint32_t checked = 0;
   for (uint32_t j = 0; j < n;) {
+    if (j - checked >= k_columns_per_checkpoint) {
+      checked = j;
+      TRY(blocks->context().checkpoint());
+    }
     SupernodeBlock block = {j, 1, count[j] - 1, 0};
     for (++j; j < n && parent[j - 1] == j && count[j - 1] == count[j] + 1; ++j) {
       ++block.width;
@@ -65,6 +70,7 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
   uint64_t rows = 0, values = 0;
   for (uint32_t s = 0; s < result->count; ++s) {
     const SupernodeBlock& block = blocks[s];
+    TRY(checkpoint_at_column(blocks.context(), s));
     result->first[s] = block.first;
     result->row_start[s] = static_cast<uint32_t>(rows);
     result->panel[s] = static_cast<uint32_t>(values);
@@ -138,9 +144,11 @@ static uint32_t* take_rows(uint32_t first, RowCollector* rows, uint32_t* to) {
   return to;
 }
 
-// Rows come from the matrix and from the children, and from nowhere else.
-static void list_rows(const Pattern& lower, uint32_t s, RowCollector* rows, Supernodes* result) {
+// Rows come from the matrix and from the children, and from nowhere else. Returns how many came.
+static uint32_t list_rows(const Pattern& lower, uint32_t s, RowCollector* rows,
+                          Supernodes* result) {
   const uint32_t first = result->first[s], after = result->first[s + 1];
+  uint32_t met = after - first + lower.start[after] - lower.start[first];
   for (uint32_t j = first; j < after; ++j) {
     rows->add(j);
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) rows->add(lower.index[k]);
@@ -149,19 +157,21 @@ static void list_rows(const Pattern& lower, uint32_t s, RowCollector* rows, Supe
     for (uint32_t k = result->row_start[c] + result->width(c); k < result->row_start[c + 1]; ++k) {
       rows->add(result->row[k]);
     }
+    met += result->height(c) - result->width(c);
   }
   const uint32_t* end = take_rows(first, rows, result->row.data() + result->row_start[s]);
   const uint32_t tail = result->row_start[s] + (after - first);
   WIRESKIN_ASSERT(end == result->row.data() + result->row_start[s + 1]);
-  if (result->row.data() + tail == end) return;
+  if (result->row.data() + tail == end) return met;
   const uint32_t above = result->of_column[result->row[tail]];
   rows->sibling[s] = rows->child[above];
   rows->child[above] = s;
+  return met;
 }
 
 Status find_supernodes(const Pattern& lower, Span<const uint32_t> parent,
                        Span<const uint32_t> count, Supernodes* result) {
-  constexpr uint32_t k_rows_per_checkpoint = 1u << 18;
+  constexpr uint32_t k_entries_per_checkpoint = 1u << 18;
   Context& context = result->first.context();
   Array<SupernodeBlock> blocks(context);
   TRY(partition_columns(parent, count, &blocks));
@@ -177,11 +187,11 @@ Status find_supernodes(const Pattern& lower, Span<const uint32_t> parent,
   TRY(rows.sibling.assign(result->count, k_none));
   TRY(rows.bits.assign(parent.size() / 64 + 1, 0));
   TRY(rows.words.assign(parent.size() / 4096 + 1, 0));
-  uint32_t checked = 0;
+  uint32_t entries = 0;
   for (uint32_t s = 0; s < result->count; ++s) {
-    list_rows(lower, s, &rows, result);
-    if (result->row_start[s] - checked < k_rows_per_checkpoint) continue;
-    checked = result->row_start[s];
+    entries += list_rows(lower, s, &rows, result);
+    if (entries < k_entries_per_checkpoint) continue;
+    entries = 0;
     TRY(context.checkpoint());
   }
   return {};

@@ -4,8 +4,8 @@
 //
 // Times wsk_build and its stages on a network of about so many vertices (`grid`: five and five
 // curves on a warped square, 16 patches; `ellipsoid`: three, 8 patches) and, given matrices of the
-// peers' rig, the solver beside the rig's programs in turn, on one thread each. --write makes such a
-// matrix of each size, of the bilaplacian on the surface: PREFIX.SIZE.K.csc, .xy.vec, .patch.vec.
+// peers' rig, the solver beside the rig's programs in turn, on one thread each. --write makes such
+// a matrix of each size, of the bilaplacian on the surface: PREFIX.SIZE.K.csc, .xy.vec, .patch.vec.
 // Prints medians and ratios, writes them as JSON. Times are processor time in milliseconds; with
 // --threads, of the wall clock. OpenBLAS takes kernels for SSE3 on processors younger than itself,
 // which makes ratios too good: see OPENBLAS_VERBOSE=2, and set OPENBLAS_CORETYPE.
@@ -251,7 +251,7 @@ void write_own_matrix(const Options& options, const std::string& size) {
 double relative_residual(const wireskin::sparse::Csc& a, const std::vector<double>& x,
                          const std::vector<double>& b) {
   std::vector<double> y(x.size());
-  wireskin::sparse::multiply_symmetric(a, {x.data(), x.size()}, {y.data(), y.size()}, 9);
+  must(wireskin::sparse::multiply_symmetric(a, {x.data(), x.size()}, {y.data(), y.size()}, 9));
   double left = 0.0, whole = 0.0;
   for (size_t i = 0; i < b.size(); ++i) {
     left += (b[i] - y[i]) * (b[i] - y[i]);
@@ -297,7 +297,7 @@ void time_own_solver(const bench::RigMatrix& matrix, Context& context, Table* ta
   table->add("residual", relative_residual(matrix.lower, x, b));
   // One step of refinement.
   std::vector<double> r(b.size());
-  multiply_symmetric(matrix.lower, {x.data(), x.size()}, {r.data(), r.size()}, 9);
+  must(multiply_symmetric(matrix.lower, {x.data(), x.size()}, {r.data(), r.size()}, 9));
   for (size_t i = 0; i < b.size(); ++i) r[i] = b[i] - r[i];
   must(factor.solve({r.data(), r.size()}, 9));
   for (size_t i = 0; i < b.size(); ++i) x[i] += r[i];

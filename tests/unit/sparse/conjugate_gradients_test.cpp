@@ -23,7 +23,7 @@ void factorise(const Csc& lower, Cholesky* factor) {
 
 double relative_residual(const Csc& a, const std::vector<double>& x, const std::vector<double>& b) {
   std::vector<double> r(b.size());
-  multiply_symmetric(a, span(x), span(r), 1);
+  must(multiply_symmetric(a, span(x), span(r), 1));
   double above = 0.0, below = 0.0;
   for (size_t i = 0; i < b.size(); ++i) {
     above += (b[i] - r[i]) * (b[i] - r[i]);
@@ -142,7 +142,7 @@ TEST_CASE("cg: a good start is kept, a zero right-hand side gives zero") {
   must(jacobi.build(a));
   const std::vector<double> truth = random_vector(81, random);
   std::vector<double> b(81), x = truth;
-  multiply_symmetric(a, span(truth), span(b), 1);
+  must(multiply_symmetric(a, span(truth), span(b), 1));
   CgResult result;
   must(conjugate_gradients(heap.context, symmetric_operator(a), jacobi.linear_operator(),
                            span(std::as_const(b)), span(x), {}, &result));

@@ -35,7 +35,7 @@ TEST_CASE("csc: an empty matrix is a lower triangle and has an empty product") {
   Heap heap;
   Csc a = Symmetric(0).csc(heap.context);
   CHECK(is_lower_triangle(a));
-  multiply_symmetric(a, {}, {}, 3);
+  must(multiply_symmetric(a, {}, {}, 3));
   Csc t(heap.context);
   must(transpose(a, &t));
   CHECK(is_lower_triangle(t));
@@ -50,7 +50,7 @@ TEST_CASE("csc: the symmetric product agrees with the sum over all entries") {
     const uint32_t columns = 3;
     const std::vector<double> x = random_vector(n * columns, random);
     std::vector<double> y(n * columns, 77.0);
-    multiply_symmetric(lower, span(x), span(y), columns);
+    must(multiply_symmetric(lower, span(x), span(y), columns));
     for (uint32_t i = 0; i < n; ++i) {
       for (uint32_t c = 0; c < columns; ++c) {
         double sum = 0.0;
@@ -68,10 +68,10 @@ TEST_CASE("csc: many columns give the bits of single ones") {
   const Csc lower = random_spd(n, 6.0, random).csc(heap.context);
   const std::vector<double> x = random_vector(n * columns, random);
   std::vector<double> y(n * columns), xc(n), yc(n);
-  multiply_symmetric(lower, span(x), span(y), columns);
+  must(multiply_symmetric(lower, span(x), span(y), columns));
   for (uint32_t c = 0; c < columns; ++c) {
     for (uint32_t i = 0; i < n; ++i) xc[i] = x[i * columns + c];
-    multiply_symmetric(lower, span(xc), span(yc), 1);
+    must(multiply_symmetric(lower, span(xc), span(yc), 1));
     for (uint32_t i = 0; i < n; ++i) REQUIRE(yc[i] == y[i * columns + c]);
   }
 }
