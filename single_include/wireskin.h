@@ -119,7 +119,8 @@ enum {
   /* A coordinate or a normal is infinite, or the coordinates span more than a double can hold, or
      they lie more than 2^100 times what they span from the origin. */
   WSK_ERROR_INFINITE = 9,
-  /* All samples of a curve are the same point. */
+  /* All samples of a curve are the same point, or (wsk_connect) as good as one beside the size of
+     the whole: squares of its lengths underflow. */
   WSK_ERROR_ZERO_LENGTH_CURVE = 10,
   /* Two neighbouring samples of a curve (or the last and the first of a closed one) coincide. */
   WSK_ERROR_DUPLICATE_SAMPLES = 11,
@@ -573,7 +574,8 @@ typedef struct wsk_connect_options {
 
   /* How far apart, in your units, curves may be that are meant to meet. Negative: only what
      coincides is joined. 0 (the default): the median distance of neighbouring samples, at most a
-     hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused. */
+     hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused, and
+     what brings 16 times as many places near each other as there are samples. */
   double snap;
   wsk_chain chain;
   /* A turn by more than this is a corner: curves are not chained through it. 0 (the default): 60
@@ -1684,7 +1686,7 @@ bool is_lower_triangle(const Csc& a);
 
 /* y = A x for the symmetric matrix whose lower triangle is `lower`. Each column of the block is */
 /* summed in the same order whatever `columns` is. */
-void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns);
+Status multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns);
 
 /* Appends a column's entries to the rows and values of a matrix that is being gathered: `rows`, */
 /* distinct and in any order, and of each its value in `sum`, which has an entry for every row of */
@@ -1705,7 +1707,7 @@ struct Pattern {
 };
 
 /* Loops over columns that do a few operations per entry pause for a checkpoint after this many. */
-inline constexpr uint32_t k_columns_per_checkpoint = 1u << 14;
+inline constexpr uint32_t k_columns_per_checkpoint = 1u << 12;
 
 inline Status checkpoint_at_column(Context& context, uint32_t j) {
   return (j + 1) % k_columns_per_checkpoint == 0 ? context.checkpoint() : Status{};
@@ -2014,7 +2016,7 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
                      Topology* topology);
 
 /* Fails with bad_mesh and the triangle where one has no area. */
-Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles);
+Status check_areas(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles);
 
 /* The triangles round each vertex: those of v are corner[start[v] .. start[v + 1]), as half-edges */
 /* that leave v, in ascending order. */
@@ -2022,13 +2024,12 @@ Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uin
                     Array<uint32_t>* corner);
 
 /* The least angle of all triangles, in degrees. */
-double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles);
+Status least_angle(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                   double* degrees);
 
 /* For each vertex the patch of one of its triangles, given the patch of each triangle. */
-inline void patches_of_vertices(Span<const uint32_t> triangles, Span<const uint32_t> patch,
-                                Span<uint32_t> result) {
-  for (size_t h = 0; h < triangles.size(); ++h) result[triangles[h]] = patch[h / 3];
-}
+Status patches_of_vertices(Context& context, Span<const uint32_t> triangles,
+                           Span<const uint32_t> patch, Span<uint32_t> result);
 
 }  /* namespace wireskin::mesh */
 /* ======== end src/mesh/mesh.h ======== */
@@ -2108,7 +2109,8 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
                           Span<const uint8_t> on_border, Array<double>* curvature);
 
 /* The angle between a normal and the one given, over the vertices where the latter is not zero. */
-AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given);
+Status normal_deviation(Context& context, Span<const Vec3> normals, Span<const Vec3> given,
+                        AngleStatistics* deviation);
 
 /* The angle between the triangles on both sides of an edge, over the edges of curves: those whose */
 /* ends are both on curves and, where `divided` says that curves divide patches, that do so. */
@@ -2149,8 +2151,8 @@ void barycentric_areas(Span<const uint32_t> triangles, Span<const TriangleShape>
 
 /* Voronoi areas, with those of obtuse triangles replaced by halves and quarters so that they stay */
 /* positive and add up to the area of the mesh. */
-void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
-                         Span<double> areas);
+Status mixed_voronoi_areas(Context& context, Span<const uint32_t> triangles,
+                           Span<const TriangleShape> shapes, Span<double> areas);
 
 /* What each corner of a triangle adds to those. */
 struct CornerAreas {
@@ -2535,21 +2537,27 @@ class Cholesky {
   size_t scratch_size() const;
   Status allocate_workspace();
   Status locate_entries();
-  Panel assemble(uint32_t s, const double* source);
-  void add_child(uint32_t c, const Panel& panel);
+  Panel panel_of(uint32_t s);
+  void assemble(uint32_t s, const double* source, uint32_t first, uint32_t end);
+  Status assemble_in_parts(uint32_t s, const double* source);
+  void add_child(uint32_t c, const Panel& panel, uint32_t first, uint32_t end);
+  uint32_t factor_supernode(uint32_t s, const double* source, const PanelTools& tools);
   static void factor_task(uint32_t index, void* batch);
+  Status factor_one_task(const Task& task, const double* source);
+  Status factor_tasks(uint32_t first, uint32_t end, const double* source);
   Status factor_step(const Step& step, const double* source);
   Status refuse_column(uint32_t s, uint32_t column) const;
   size_t lane_step() const { return round_up_rows(tallest_) + 4; }
-  void solve_forward(uint32_t s, uint32_t lanes);
-  void solve_backward(uint32_t s, uint32_t lanes);
-  Status count_solve(uint32_t s, uint32_t lanes, size_t* work);
+  Status solve_forward(uint32_t s, uint32_t lanes);
+  Status solve_backward(uint32_t s, uint32_t lanes);
+  Status count_work(size_t work);
 
   Context* context_;
   DenseKernels kernels_;
   uint32_t n_ = 0;
   uint32_t tallest_ = 0;  /* rows of a panel, at most */
   size_t nonzeros_ = 0;
+  size_t work_ = 0;  /* since the last checkpoint */
   bool analysed_ = false;
   bool factored_ = false;
   Array<uint32_t> order_;
@@ -2683,8 +2691,8 @@ class System {
 
  private:
   Status find_gradients(Span<const Field3> fields, double* squares);
-  void add_solutions(Span<const Field3> fields) const;
-  void add_penalties();
+  Status add_solutions(Span<const Field3> fields) const;
+  Status add_penalties();
   Status find_order(const sparse::Csc& matrix, Array<uint32_t>* order) const;
   Status analyse();
   Status prepare_iteration();
@@ -2898,6 +2906,28 @@ wsk_status finish(const Status& status, wsk_report* report, wsk_report* out);
 }  /* namespace wireskin::api */
 /* ======== end src/api/report.h ======== */
 
+/* ======== begin src/base/in_parts.h ======== */
+/* A pass over many things that may take longer than a caller wants to wait: body(i) for each index */
+/* below `count`, in order, with a checkpoint after every part of 4096. Short passes have none, so */
+/* that small calls are not slowed down; the stage that makes many of them has its own. */
+
+namespace wireskin {
+
+template <class Body>
+Status in_parts(Context& context, size_t count, const Body& body) {
+  constexpr size_t k_part = 4096;
+  /* The body stands here once, so that the compiler makes one loop of it and not two. */
+  for (size_t i = 0; i < count;) {
+    const bool whole = count - i >= k_part;
+    for (const size_t end = whole ? i + k_part : count; i < end; ++i) body(i);
+    if (whole) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+}  /* namespace wireskin */
+/* ======== end src/base/in_parts.h ======== */
+
 /* ======== begin src/api/view.h ======== */
 /* Results as the caller sees them: one block of his memory holds the handle and, behind it, all */
 /* arrays of its view, in his units. */
@@ -2939,17 +2969,18 @@ void fill_view(const Handle* handle, View* view, size_t size) {
   view->size = size;
 }
 
-inline const double* write_vectors(unsigned char* block, size_t offset, Span<const Vec3> values,
-                                   const Scale& scale) {
-  double* out = reinterpret_cast<double*>(block + offset);
-  for (size_t i = 0; i < values.size(); ++i) {
+inline Status write_vectors(Context& context, Span<const Vec3> values, const Scale& scale,
+                            unsigned char* place, const double** vectors) {
+  double* out = reinterpret_cast<double*>(place);
+  *vectors = out;
+  return in_parts(context, values.size(), [&](size_t i) {
     const Vec3 v = scale(values[i]);
     out[3 * i] = v.x, out[3 * i + 1] = v.y, out[3 * i + 2] = v.z;
-  }
-  return out;
+  });
 }
 
-/* The surface in the caller's units, in one block. */
+/* The surface in the caller's units, in one block; half-written, and to be freed, where it fails */
+/* after the allocation. */
 Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out);
 
 }  /* namespace wireskin::api */
@@ -4182,10 +4213,11 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
 /* Where curves come near each other: all places where the distance between two stretches of curve */
 /* has a local minimum of at most a given reach. */
 /* */
-/* In: curves. Out: pairs of places with their distance. Edges are found by a uniform grid, compared */
-/* as straight lines, and the places then refined on local cubics, because between coarse samples */
-/* curves that meet pass each other's chords at the height of the arc. Cost: near linear in samples */
-/* as long as few curves share a cell; the grid's cells are no smaller than the mean edge. */
+/* In: curves. Out: pairs of places with their distance. Edges are found by a tree of boxes, */
+/* compared as straight lines, and the places then refined on local cubics, because between coarse */
+/* samples curves that meet pass each other's chords at the height of the arc. O(n log n) for n */
+/* samples, and what is within reach; fails with bad_argument where that is many times as much as */
+/* there are samples. */
 
 namespace wireskin::network {
 
@@ -5791,7 +5823,8 @@ namespace wireskin::mesh {
 
 /* Unit normals from the triangles round each vertex, each weighted by the sine of its angle over */
 /* the product of its sides: exact where all vertices lie on a sphere. */
-void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles, Span<Vec3> normals);
+Status vertex_normals(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                      Span<Vec3> normals);
 
 /* H at every vertex. The star of a border vertex is not closed, so it takes the mean of its */
 /* neighbours inside (of its neighbours on the border, where all are). */
@@ -6196,6 +6229,42 @@ Status triangulate_region(const Region& region, Triangulation* t, Array<uint32_t
 
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/region.h ======== */
+
+/* ======== begin src/network/box_tree.h ======== */
+/* Which boxes meet a box: a balanced tree, in which each node has the box of all below it. */
+/* */
+/* In: boxes with edges along the axes, which the tree refers to. A node's boxes are halved at the */
+/* median of their centres along the axis in which these spread most (J. L. Bentley, */
+/* "Multidimensional binary search trees used for associative searching", 1975), so neither the */
+/* sizes of the boxes nor one far out decide how good the tree is, as they would of a grid. */
+/* O(n log n) to build; a search costs the depth and what is near. */
+
+namespace wireskin::network {
+
+struct Box {
+  Vec3 low, high;
+};
+
+class BoxTree {
+ public:
+  explicit BoxTree(Context& context) : order_(context), node_(context) {}
+
+  Status build(Span<const Box> boxes);
+
+  /* The boxes of a greater index than `after` that meet `box`, ascending. */
+  Status find(const Box& box, uint32_t after, Array<uint32_t>* found) const;
+
+ private:
+  Box bound(uint32_t first, uint32_t count) const;
+  void halve(uint32_t first, uint32_t count);
+
+  Span<const Box> boxes_;
+  Array<uint32_t> order_;  /* the boxes of a node are a range of this */
+  Array<Box> node_;        /* the children of node k are 2 k + 1 and 2 k + 2 */
+};
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/box_tree.h ======== */
 
 /* ======== begin src/network/beads.h ======== */
 /* Curves as strings of beads, on which places of theirs can be made one point. */
@@ -6669,7 +6738,8 @@ Status cut_along_creases(const Network& network, const CurveVertices& vertices,
                          Span<const Vec3> position, CreasedMesh* creased);
 
 /* Brings positions and triangles back to the vertices of the uncut mesh. */
-void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle);
+Status merge_creases(Context& context, const CreasedMesh& creased, Span<Vec3> position,
+                     Span<uint32_t> triangle);
 
 /* Of each vertex of the uncut mesh. */
 struct VertexMeasures {
@@ -7761,7 +7831,7 @@ struct DisplaceInput {
   Span<const double> foretold_curvature = {}, foretold_weight = {};
   Span<const uint32_t> inner_edge = {};  /* of curves inside patches, two vertices each */
 
-  bool is_bare(uint32_t v) const { return !bare.empty() && bare[v]; }
+  bool is_bare(size_t v) const { return !bare.empty() && bare[v]; }
 };
 
 /* Solves one step after the other. The systems of later steps differ little from the first, so its */
@@ -8186,10 +8256,12 @@ bool is_lower_triangle(const Csc& a) {
   return true;
 }
 
-void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, uint32_t columns) {
+Status multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y,
+                          uint32_t columns) {
   WIRESKIN_ASSERT(x.size() == size_t{lower.cols} * columns && y.size() == x.size());
   for (double& entry : y) entry = 0.0;
   for (uint32_t j = 0; j < lower.cols; ++j) {
+    TRY(checkpoint_at_column(lower.start.context(), j));
     const double* xj = x.data() + size_t{j} * columns;
     double* yj = y.data() + size_t{j} * columns;
     const uint32_t diagonal = lower.start[j];
@@ -8204,6 +8276,7 @@ void multiply_symmetric(const Csc& lower, Span<const double> x, Span<double> y, 
       }
     }
   }
+  return {};
 }
 
 Status append_column(Span<const uint32_t> rows, Span<const double> sum, Csc* matrix) {
@@ -8224,10 +8297,10 @@ Status transpose(const Csc& a, Csc* result) {
   TRY(result->row.resize(entries));
   TRY(result->value.resize(entries));
   Array<uint32_t> next(a.start.context());
-  TRY(next.reserve(size_t{a.rows} + 1));
-  for (const uint32_t i : a.row) ++result->start[i];
+  TRY(next.resize(size_t{a.rows} + 1));
+  TRY(in_parts(a.start.context(), entries, [&](size_t k) { ++result->start[a.row[k]]; }));
   starts_from_counts(result->start.span());
-  TRY(next.copy(result->start.span()));
+  TRY(in_parts(a.start.context(), next.size(), [&](size_t i) { next[i] = result->start[i]; }));
   for (uint32_t j = 0; j < a.cols; ++j) {
     TRY(checkpoint_at_column(a.start.context(), j));
     for (uint32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
@@ -8260,7 +8333,7 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     }
   }
   starts_from_counts(result->start.span());
-  for (uint32_t j = 0; j <= n; ++j) next[j] = result->start[j];
+  TRY(in_parts(context, next.size(), [&](size_t j) { next[j] = result->start[j]; }));
   for (uint32_t j = 0; j < n; ++j) {
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
@@ -8370,11 +8443,11 @@ Status Ldl::factor(const Csc& lower) {
   if (lower.cols != n || lower.value.size() != upper_.source.size()) {
     return fail(Code::bad_argument, "the matrix has not the pattern that was analysed");
   }
-  for (uint32_t j = 0; j < n; ++j) {
+  TRY(in_parts(*context_, n, [&](size_t j) {
     filled_[j] = start_[j];
     visited_[j] = k_none;
     column_[j] = 0.0;
-  }
+  }));
   for (uint32_t k = 0; k < n; ++k) {
     const uint32_t top = find_row_pattern(k);
     for (uint32_t p = upper_.start[k]; p < upper_.start[k + 1]; ++p) {
@@ -8412,10 +8485,10 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
   WIRESKIN_ASSERT(x.size() == size_t{n} * columns);
   TRY(permuted_.resize(x.size()));
   double* y = permuted_.data();
-  for (uint32_t k = 0; k < n; ++k) {
+  TRY(in_parts(*context_, n, [&](size_t k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    for (uint32_t c = 0; c < columns; ++c) y[size_t{k} * columns + c] = from[c];
-  }
+    for (uint32_t c = 0; c < columns; ++c) y[k * columns + c] = from[c];
+  }));
   for (uint32_t j = 0; j < n; ++j) {
     const double* yj = y + size_t{j} * columns;
     for (uint32_t p = start_[j]; p < start_[j + 1]; ++p) {
@@ -8433,12 +8506,11 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
     }
     TRY(count_work(size_t{start_[j + 1] - start_[j]} * columns));
   }
-  for (uint32_t k = 0; k < n; ++k) {
+  return in_parts(*context_, n, [&](size_t k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    const double* from = y + size_t{k} * columns;
+    const double* from = y + k * columns;
     for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
-  }
-  return {};
+  });
 }
 
 /* Z = A^-1 satisfies Z L = L^-T D^-1, whose lower triangle is D^-1. So column j of Z below the */
@@ -9088,6 +9160,8 @@ network::SmoothingOptions smoothing_of(const wsk_options& options, const Scale& 
 /* ======== begin src/mesh/mesh.cpp ======== */
 namespace wireskin::mesh {
 
+static constexpr size_t k_passed = 16384;  /* triangles or vertices between two checkpoints */
+
 static Status fail_triangle(const char* sentence, size_t triangle) {
   Place place;
   place.triangle = static_cast<uint32_t>(triangle);
@@ -9100,7 +9174,7 @@ static Status fail_vertex(const char* sentence, size_t vertex) {
   return fail(Code::bad_mesh, sentence, place);
 }
 
-static Status check_indices(uint32_t vertices, Span<const uint32_t> triangles) {
+static Status check_indices(Context& context, uint32_t vertices, Span<const uint32_t> triangles) {
   for (size_t t = 0; t < triangles.size() / 3; ++t) {
     const uint32_t a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
     if (a >= vertices || b >= vertices || c >= vertices) {
@@ -9110,27 +9184,28 @@ static Status check_indices(uint32_t vertices, Span<const uint32_t> triangles) {
                   place);
     }
     if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
+    if (t % k_passed == k_passed - 1) TRY(context.checkpoint());
   }
   return {};
 }
 
 Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
                     Array<uint32_t>* corner) {
+  Context& context = start->context();
   TRY(start->assign(size_t{vertices} + 1, 0));
   TRY(corner->resize(triangles.size()));
-  for (uint32_t v : triangles) ++(*start)[v];
+  TRY(in_parts(context, triangles.size(), [&](size_t h) { ++(*start)[triangles[h]]; }));
   starts_from_counts(start->span());
-  for (size_t h = 0; h < triangles.size(); ++h) {
-    (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h);
-  }
+  TRY(in_parts(context, triangles.size(),
+               [&](size_t h) { (*corner)[(*start)[triangles[h]]++] = static_cast<uint32_t>(h); }));
   shift_starts_back(start->span());
   return {};
 }
 
 Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* twins) {
   if (triangles.size() >= k_none) return fail(Code::too_large, "too many triangles");
-  TRY(check_indices(vertices, triangles));
   Context& context = twins->context();
+  TRY(check_indices(context, vertices, triangles));
   Array<uint32_t> start(context), corner(context), leaving_to(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(leaving_to.assign(vertices, k_none));  /* of each vertex: the half-edge to it from this one */
@@ -9151,7 +9226,7 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
       (*twins)[arriving] = leaving_to[triangles[arriving]];
     }
     for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
-    if (v % 65536 == 65535) TRY(context.checkpoint());
+    if (v % k_passed == k_passed - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -9162,19 +9237,21 @@ static uint32_t root_of(Span<uint32_t> parent, uint32_t v) {
   return v;
 }
 
-static void find_components(Span<const uint32_t> triangles, Topology* topology) {
+static Status find_components(Context& context, Span<const uint32_t> triangles,
+                              Topology* topology) {
   const Span<uint32_t> parent = topology->component.span();
   for (uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    for (size_t k = 1; k < 3; ++k) {
-      const uint32_t a = root_of(parent, triangles[t]), b = root_of(parent, triangles[t + k]);
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    for (size_t h = 3 * t + 1; h < 3 * t + 3; ++h) {
+      const uint32_t a = root_of(parent, triangles[3 * t]), b = root_of(parent, triangles[h]);
       (a < b ? parent[b] : parent[a]) = a < b ? a : b;
     }
-  }
+  }));
   /* Roots come before their members, so one pass replaces parents by component numbers. */
   for (uint32_t v = 0; v < parent.size(); ++v) {
     parent[v] = parent[v] == v ? topology->components++ : parent[parent[v]];
   }
+  return {};
 }
 
 namespace {
@@ -9189,20 +9266,21 @@ struct Fan {
 
 }  /* namespace */
 
-static void find_fans(Span<const uint32_t> triangles, Span<const uint32_t> twins, Span<Fan> fans) {
+static Status find_fans(Context& context, Span<const uint32_t> triangles,
+                        Span<const uint32_t> twins, Span<Fan> fans) {
   for (Fan& fan : fans) fan = {0, 0, 0};
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
+  return in_parts(context, triangles.size(), [&](size_t h) {
     Fan& fan = fans[triangles[h]];
     const uint32_t border = twins[h] == k_none;
     ++fan.corners;
     fan.borders += border;
-    if (border != 0 || fan.borders == 0) fan.first = h;
-  }
+    if (border != 0 || fan.borders == 0) fan.first = static_cast<uint32_t>(h);
+  });
 }
 
 /* Walks round every vertex from one of its corners (at a border vertex: from the border) and */
 /* compares the number of triangles met with those it has. */
-static Status check_fans(Span<const uint32_t> twins, Span<const Fan> fans,
+static Status check_fans(Context& context, Span<const uint32_t> twins, Span<const Fan> fans,
                          Span<uint8_t> on_border) {
   for (size_t v = 0; v < fans.size(); ++v) {
     const Fan fan = fans[v];
@@ -9216,6 +9294,7 @@ static Status check_fans(Span<const uint32_t> twins, Span<const Fan> fans,
       return fail_vertex("the triangles round the vertex do not form one fan", v);
     }
     on_border[v] = fan.borders == 1;
+    if (v % k_passed == k_passed - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -9243,32 +9322,41 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
   TRY(fans.resize(vertices));
   TRY(topology->on_border.assign(vertices, 0));
   TRY(topology->component.resize(vertices));
-  find_fans(triangles, twins, fans.span());
-  TRY(check_fans(twins, fans.span(), topology->on_border.span()));
-  find_components(triangles, topology);
+  TRY(find_fans(context, triangles, twins, fans.span()));
+  TRY(check_fans(context, twins, fans.span(), topology->on_border.span()));
+  TRY(find_components(context, triangles, topology));
   TRY(count_loops(twins, context, &topology->boundary_loops));
-  for (uint32_t h = 0; h < twins.size(); ++h) topology->edges += twins[h] == k_none || h < twins[h];
+  TRY(in_parts(context, twins.size(),
+               [&](size_t h) { topology->edges += twins[h] == k_none || h < twins[h]; }));
   topology->euler_characteristic = static_cast<int32_t>(int64_t{vertices} - topology->edges +
                                                         static_cast<int64_t>(triangles.size() / 3));
   return {};
 }
 
-Status check_areas(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+Status check_areas(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles) {
   for (size_t t = 0; t < triangles.size(); t += 3) {
     const Vec3& a = positions[triangles[t]];
     const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
     if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
+    if (t / 3 % k_passed == k_passed - 1) TRY(context.checkpoint());
   }
   return {};
 }
 
+Status patches_of_vertices(Context& context, Span<const uint32_t> triangles,
+                           Span<const uint32_t> patch, Span<uint32_t> result) {
+  return in_parts(context, triangles.size(),
+                  [&](size_t h) { result[triangles[h]] = patch[h / 3]; });
+}
+
 /* The smallest angle of a triangle has the largest cosine, so one arctangent at the end is enough. */
-double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+Status least_angle(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                   double* degrees) {
   double greatest_cosine = -1.0;
   double angle = 0.0;
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const Vec3 at[3] = {positions[triangles[t]], positions[triangles[t + 1]],
-                        positions[triangles[t + 2]]};
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
+    const Vec3 at[3] = {positions[v[0]], positions[v[1]], positions[v[2]]};
     for (int k = 0; k < 3; ++k) {
       const Vec3 a = at[k == 2 ? 0 : k + 1] - at[k], b = at[k == 0 ? 2 : k - 1] - at[k];
       const double product = dot(a, b), squares = dot(a, a) * dot(b, b);
@@ -9282,8 +9370,9 @@ double least_angle(Span<const Vec3> positions, Span<const uint32_t> triangles) {
       greatest_cosine = cosine;
       angle = angle_between(a, b);
     }
-  }
-  return angle * (180.0 / k_pi);
+  }));
+  *degrees = angle * (180.0 / k_pi);
+  return {};
 }
 
 }  /* namespace wireskin::mesh */
@@ -9426,8 +9515,8 @@ Status find_crease_normals(Context& context, Span<const Vec3> positions,
   TRY(cut_open(vertices, triangles, twins.span(), crease.span(), &cut));
   TRY(place.resize(cut.vertices()));
   TRY(normal.resize(cut.vertices()));
-  for (uint32_t c = 0; c < cut.vertices(); ++c) place[c] = positions[cut.origin[c]];
-  vertex_normals(place.span(), cut.triangle.span(), normal.span());
+  TRY(in_parts(context, cut.vertices(), [&](size_t c) { place[c] = positions[cut.origin[c]]; }));
+  TRY(vertex_normals(context, place.span(), cut.triangle.span(), normal.span()));
   return corner_normals(cut, vertices, normal.span(), result);
 }
 
@@ -9467,8 +9556,8 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
   Array<double> area(context);
   TRY(curvature->assign(n, 2.0 * k_pi));
   TRY(area.assign(n, 0.0));
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
     const TriangleShape shape = triangle_shape(positions[v[0]], positions[v[1]], positions[v[2]]);
     const CornerAreas shares = mixed_voronoi_shares(shape);
     for (int k = 0; k < 3; ++k) {
@@ -9476,19 +9565,21 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
       /* The cotangent of the angle is known: arctan2(1, cot) is the angle. */
       (*curvature)[v[k]] -= arc_tangent(1.0, shape.cotangent[k]);
     }
-  }
-  for (size_t v = 0; v < n; ++v) {
+  }));
+  TRY(in_parts(context, n, [&](size_t v) {
     (*curvature)[v] = !on_border[v] && area[v] > 0.0 ? (*curvature)[v] / area[v] : 0.0;
-  }
+  }));
   return fill_border(context, triangles, on_border, curvature->span());
 }
 
-AngleStatistics deviation(Span<const Vec3> normals, Span<const Vec3> given) {
+Status normal_deviation(Context& context, Span<const Vec3> normals, Span<const Vec3> given,
+                        AngleStatistics* deviation) {
   AngleSum sum;
-  for (size_t v = 0; v < normals.size(); ++v) {
+  TRY(in_parts(context, normals.size(), [&](size_t v) {
     if (dot(given[v], given[v]) > 0.0) sum.add(angle_between(normals[v], given[v]));
-  }
-  return sum.statistics();
+  }));
+  *deviation = sum.statistics();
+  return {};
 }
 
 Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
@@ -9497,6 +9588,7 @@ Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const 
   /* Edges of curves have both ends on curves, and so have their triangles: the others are left out. */
   Array<uint32_t> twins(context), corner(context), own_patch(context);
   for (size_t t = 0; 3 * t < triangles.size(); ++t) {
+    if (t % 65536 == 65535) TRY(context.checkpoint());
     const uint32_t* v = &triangles[3 * t];
     if (on_curve[v[0]] + on_curve[v[1]] + on_curve[v[2]] < 2) continue;
     for (size_t k = 0; k < 3; ++k) TRY(corner.push(v[k]));
@@ -9542,11 +9634,10 @@ TriangleShape triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c) {
 Status triangle_shapes(Span<const Vec3> positions, Span<const uint32_t> triangles,
                        Array<TriangleShape>* shapes) {
   TRY(shapes->resize(triangles.size() / 3));
-  for (size_t t = 0; t < shapes->size(); ++t) {
+  return in_parts(shapes->context(), shapes->size(), [&](size_t t) {
     (*shapes)[t] = triangle_shape(positions[triangles[3 * t]], positions[triangles[3 * t + 1]],
                                   positions[triangles[3 * t + 2]]);
-  }
-  return {};
+  });
 }
 
 void barycentric_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
@@ -9570,13 +9661,13 @@ CornerAreas mixed_voronoi_shares(const TriangleShape& shape) {
            mixed_voronoi_share(shape, 2)}};
 }
 
-void mixed_voronoi_areas(Span<const uint32_t> triangles, Span<const TriangleShape> shapes,
-                         Span<double> areas) {
-  for (double& a : areas) a = 0.0;
-  for (size_t t = 0; t < shapes.size(); ++t) {
+Status mixed_voronoi_areas(Context& context, Span<const uint32_t> triangles,
+                           Span<const TriangleShape> shapes, Span<double> areas) {
+  TRY(in_parts(context, areas.size(), [&](size_t v) { areas[v] = 0.0; }));
+  return in_parts(context, shapes.size(), [&](size_t t) {
     const CornerAreas shares = mixed_voronoi_shares(shapes[t]);
     for (size_t k = 0; k < 3; ++k) areas[triangles[3 * t + k]] += shares.at[k];
-  }
+  });
 }
 
 namespace {
@@ -9610,8 +9701,8 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   Array<uint32_t> start(context), corner(context);
   ColumnUnderWay column(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(column.met.assign(vertices, k_none));
-  TRY(column.sum.assign(vertices, 0.0));
+  TRY(column.met.resize(vertices));
+  TRY(column.sum.resize(vertices));
   TRY(column.row.resize(size_t{vertices} + 1));
   laplacian->rows = laplacian->cols = vertices;
   TRY(laplacian->start.resize(size_t{vertices} + 1));
@@ -9624,6 +9715,10 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
   TRY(laplacian->value.reserve(room));
   laplacian->row.clear();
   laplacian->value.clear();
+  TRY(in_parts(context, vertices, [&](size_t v) {
+    column.met[v] = k_none;
+    column.sum[v] = 0.0;
+  }));
   for (uint32_t v = 0; v < vertices; ++v) {
     laplacian->start[v] = static_cast<uint32_t>(laplacian->row.size());
     /* A column has its diagonal and at most two entries a triangle. */
@@ -9649,7 +9744,7 @@ Status cotangent_laplacian(uint32_t vertices, Span<const uint32_t> triangles,
     column.sum[v] = diagonal;
     TRY(sparse::append_column(column.row.span().part(0, column.count), column.sum.span(),
                               laplacian));
-    if (v % 16384 == 16383) TRY(context.checkpoint());
+    if (v % 8192 == 8191) TRY(context.checkpoint());
   }
   laplacian->start[vertices] = static_cast<uint32_t>(laplacian->row.size());
   return {};
@@ -10894,7 +10989,12 @@ static Status partition_columns(Span<const uint32_t> parent, Span<const uint32_t
                                 Array<SupernodeBlock>* blocks) {
   const uint32_t n = static_cast<uint32_t>(parent.size());
   TRY(blocks->reserve(n));
+  uint32_t checked = 0;
   for (uint32_t j = 0; j < n;) {
+    if (j - checked >= k_columns_per_checkpoint) {
+      checked = j;
+      TRY(blocks->context().checkpoint());
+    }
     SupernodeBlock block = {j, 1, count[j] - 1, 0};
     for (++j; j < n && parent[j - 1] == j && count[j - 1] == count[j] + 1; ++j) {
       ++block.width;
@@ -10915,6 +11015,7 @@ static Status size_panels(const Array<SupernodeBlock>& blocks, Supernodes* resul
   uint64_t rows = 0, values = 0;
   for (uint32_t s = 0; s < result->count; ++s) {
     const SupernodeBlock& block = blocks[s];
+    TRY(checkpoint_at_column(blocks.context(), s));
     result->first[s] = block.first;
     result->row_start[s] = static_cast<uint32_t>(rows);
     result->panel[s] = static_cast<uint32_t>(values);
@@ -10988,9 +11089,11 @@ static uint32_t* take_rows(uint32_t first, RowCollector* rows, uint32_t* to) {
   return to;
 }
 
-/* Rows come from the matrix and from the children, and from nowhere else. */
-static void list_rows(const Pattern& lower, uint32_t s, RowCollector* rows, Supernodes* result) {
+/* Rows come from the matrix and from the children, and from nowhere else. Returns how many came. */
+static uint32_t list_rows(const Pattern& lower, uint32_t s, RowCollector* rows,
+                          Supernodes* result) {
   const uint32_t first = result->first[s], after = result->first[s + 1];
+  uint32_t met = after - first + lower.start[after] - lower.start[first];
   for (uint32_t j = first; j < after; ++j) {
     rows->add(j);
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) rows->add(lower.index[k]);
@@ -10999,19 +11102,21 @@ static void list_rows(const Pattern& lower, uint32_t s, RowCollector* rows, Supe
     for (uint32_t k = result->row_start[c] + result->width(c); k < result->row_start[c + 1]; ++k) {
       rows->add(result->row[k]);
     }
+    met += result->height(c) - result->width(c);
   }
   const uint32_t* end = take_rows(first, rows, result->row.data() + result->row_start[s]);
   const uint32_t tail = result->row_start[s] + (after - first);
   WIRESKIN_ASSERT(end == result->row.data() + result->row_start[s + 1]);
-  if (result->row.data() + tail == end) return;
+  if (result->row.data() + tail == end) return met;
   const uint32_t above = result->of_column[result->row[tail]];
   rows->sibling[s] = rows->child[above];
   rows->child[above] = s;
+  return met;
 }
 
 Status find_supernodes(const Pattern& lower, Span<const uint32_t> parent,
                        Span<const uint32_t> count, Supernodes* result) {
-  constexpr uint32_t k_rows_per_checkpoint = 1u << 18;
+  constexpr uint32_t k_entries_per_checkpoint = 1u << 18;
   Context& context = result->first.context();
   Array<SupernodeBlock> blocks(context);
   TRY(partition_columns(parent, count, &blocks));
@@ -11027,11 +11132,11 @@ Status find_supernodes(const Pattern& lower, Span<const uint32_t> parent,
   TRY(rows.sibling.assign(result->count, k_none));
   TRY(rows.bits.assign(parent.size() / 64 + 1, 0));
   TRY(rows.words.assign(parent.size() / 4096 + 1, 0));
-  uint32_t checked = 0;
+  uint32_t entries = 0;
   for (uint32_t s = 0; s < result->count; ++s) {
-    list_rows(lower, s, &rows, result);
-    if (result->row_start[s] - checked < k_rows_per_checkpoint) continue;
-    checked = result->row_start[s];
+    entries += list_rows(lower, s, &rows, result);
+    if (entries < k_entries_per_checkpoint) continue;
+    entries = 0;
     TRY(context.checkpoint());
   }
   return {};
@@ -11119,6 +11224,7 @@ static Status link_tree(const Supernodes& s, Fronts* f) {
   TRY(f->child.assign(s.count, k_none));
   TRY(f->sibling.assign(s.count, k_none));
   for (uint32_t k = s.count; k-- > 0;) {
+    TRY(checkpoint_at_column(f->child.context(), k));
     if (tail_of(s, k) == 0) continue;
     const uint32_t above = s.of_column[s.rows(k)[s.width(k)]];
     f->parent[k] = above;
@@ -11130,11 +11236,12 @@ static Status link_tree(const Supernodes& s, Fronts* f) {
 
 /* The rows of a tail are among those of the parent, and both ascend. */
 static Status list_runs(const Supernodes& s, Fronts* f) {
+  constexpr uint32_t k_rows_per_checkpoint = 1u << 18;
   TRY(f->run_start.resize(size_t{s.count} + 1));
   TRY(f->run.reserve(size_t{s.count} * 4));
   f->run.clear();
+  uint32_t rows_met = 0;
   for (uint32_t k = 0; k < s.count; ++k) {
-    TRY(checkpoint_at_column(f->run.context(), k));
     f->run_start[k] = static_cast<uint32_t>(f->run.size());
     const uint32_t tail = tail_of(s, k);
     if (tail == 0) continue;
@@ -11147,6 +11254,10 @@ static Status list_runs(const Supernodes& s, Fronts* f) {
       for (++i, ++to; i < tail && rows[i] == above[to]; ++i, ++to) ++run.length;
       TRY(f->run.push(run));
     }
+    rows_met += to;
+    if (rows_met < k_rows_per_checkpoint) continue;
+    rows_met = 0;
+    TRY(f->run.context().checkpoint());
   }
   f->run_start[s.count] = static_cast<uint32_t>(f->run.size());
   return {};
@@ -11162,6 +11273,7 @@ static Status cut_tasks(const Supernodes& s, Fronts* f) {
   TRY(work.resize(s.count));
   TRY(first.resize(s.count));
   for (uint32_t k = 0; k < s.count; ++k) {
+    TRY(checkpoint_at_column(context, k));
     work[k] = work_of(s, k);
     first[k] = k;
     for (uint32_t c = f->child[k]; c != k_none; c = f->sibling[c]) {
@@ -11178,6 +11290,7 @@ static Status cut_tasks(const Supernodes& s, Fronts* f) {
   f->task.clear();
   f->upper.clear();
   for (uint32_t k = 0; k < s.count; ++k) {
+    TRY(checkpoint_at_column(context, k));
     const bool light = work[k] <= limit;
     const bool top = f->parent[k] == k_none || work[f->parent[k]] > limit;
     if (light && top) TRY(f->task.push({first[k], k}));
@@ -11276,12 +11389,19 @@ struct ColumnBlock {
   DiagonalBlock diagonal[k_diagonal_blocks];
 };
 
+/* Some columns of the update matrix and some of the panel's columns, whose products they lose. */
+struct TailBlock {
+  uint32_t first, count;
+  uint32_t from, depth;
+};
+
 /* What the threads share while they divide a part of the work: a chunk each. */
 struct PanelParts {
   const PanelTools* tools;
   const Panel* panel;
   const ColumnBlock* block;
-  uint32_t first, end;  /* rows of the panel, or columns of the update */
+  const TailBlock* tail;
+  uint32_t first, end;  /* rows of the panel, or columns of the update, or its rows */
   uint32_t chunk;
   void (*part)(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch);
 };
@@ -11382,6 +11502,20 @@ static void update_tail(const PanelParts& parts, uint32_t first, uint32_t end, d
       scratch);
 }
 
+/* The rows first .. end of a block of the update matrix, from its diagonal on. */
+static void update_tail_rows(const PanelParts& parts, uint32_t first, uint32_t end,
+                             double* scratch) {
+  const Panel& panel = *parts.panel;
+  const TailBlock& block = *parts.tail;
+  const size_t step = panel.step(block.from), tail_step = round_up_rows(panel.tail());
+  parts.tools->kernels->update(
+      {end - first, block.count, block.depth, panel.at(panel.width + first, block.from), step,
+       panel.at(panel.width + block.first, block.from), 1, step,
+       panel.update + block.first * tail_step + first, tail_step, first == block.first,
+       panel.first && block.from == 0, true, false},
+      scratch);
+}
+
 static ColumnBlock block_at(const Panel& panel, uint32_t first) {
   ColumnBlock block;
   block.first = first;
@@ -11397,10 +11531,14 @@ uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
     if (bad != k_none) return bad;
   }
   if (panel.tail() > 0) {
-    update_tail({&tools, &panel, nullptr, 0, 0, 0, nullptr}, 0, panel.tail(), tools.scratch);
+    update_tail({&tools, &panel, nullptr, nullptr, 0, 0, 0, nullptr}, 0, panel.tail(),
+                tools.scratch);
   }
   return k_none;
 }
+
+/* Multiplications of one thread between two checkpoints, about. */
+static constexpr double k_most_work = 2.5e7;
 
 static void run_slot(uint32_t slot, void* data) {
   const PanelParts& parts = *static_cast<const PanelParts*>(data);
@@ -11413,7 +11551,7 @@ static void run_slot(uint32_t slot, void* data) {
 /* checkpoint is never far; `work`: multiplications for each row or column. */
 static Status run_parts(Context& context, PanelParts parts, double work) {
   constexpr uint32_t k_least_chunk = 64;
-  constexpr double k_most_work = 5e7, k_worth_dividing = 5e5;
+  constexpr double k_worth_dividing = 5e5;
   const uint32_t slots = parts.tools->slots;
   const uint32_t end = parts.end;
   const uint32_t share = slots == 1 ? end - parts.first : (end - parts.first) / slots;
@@ -11436,6 +11574,28 @@ static Status run_parts(Context& context, PanelParts parts, double work) {
   return {};
 }
 
+/* A few columns at a time; where even these would take long, a few terms of some of their rows. */
+static Status update_tail_in_parts(Context& context, const PanelTools& tools, const Panel& panel) {
+  const uint32_t tail = panel.tail();
+  const double work = double{1} * tail * panel.width;
+  if (work * k_panel_block <= k_most_work) {
+    return run_parts(context, {&tools, &panel, nullptr, nullptr, 0, tail, 0, &update_tail}, work);
+  }
+  TailBlock block = {};
+  for (; block.first < tail; block.first += block.count) {
+    block.count = tail - block.first < k_panel_block ? tail - block.first : k_panel_block;
+    for (block.from = 0; block.from < panel.width; block.from += block.depth) {
+      const uint32_t left = panel.width - block.from;
+      block.depth = left < k_block_depth ? left : k_block_depth;
+      TRY(run_parts(
+          context,
+          {&tools, &panel, nullptr, &block, block.first, round_up_rows(tail), 0, &update_tail_rows},
+          double{k_panel_block} * k_block_depth));
+    }
+  }
+  return {};
+}
+
 Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
                              uint32_t* bad_column) {
   *bad_column = k_none;
@@ -11445,19 +11605,18 @@ Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Pa
     const uint32_t below = round_up_rows(first + block.count);
     update_columns(tools, panel, 0, first, block.count, first, below, tools.scratch);
     if (below < rows) {
-      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &update_rows},
+      TRY(context.checkpoint());
+      TRY(run_parts(context, {&tools, &panel, &block, nullptr, below, rows, 0, &update_rows},
                     double{k_panel_block} * (first + 1)));
     }
     *bad_column = factor_block(tools, panel, below, &block);
     if (*bad_column != k_none) return {};
     if (below < rows) {
-      TRY(run_parts(context, {&tools, &panel, &block, below, rows, 0, &solve_rows_below},
+      TRY(run_parts(context, {&tools, &panel, &block, nullptr, below, rows, 0, &solve_rows_below},
                     0.5 * k_panel_block * k_panel_block));
     }
   }
-  if (panel.tail() == 0) return {};
-  return run_parts(context, {&tools, &panel, nullptr, 0, panel.tail(), 0, &update_tail},
-                   double{1} * panel.tail() * panel.width);
+  return panel.tail() == 0 ? Status{} : update_tail_in_parts(context, tools, panel);
 }
 
 }  /* namespace wireskin::sparse */
@@ -11479,8 +11638,9 @@ Cholesky::Cholesky(Context& context, Instructions instructions)
       workspace_(context),
       scratch_(context) {}
 
-static void invert_order(Span<const uint32_t> order, Span<uint32_t> position) {
-  for (uint32_t k = 0; k < order.size(); ++k) position[order[k]] = k;
+static Status invert_order(Span<const uint32_t> order, Array<uint32_t>* position) {
+  return in_parts(position->context(), order.size(),
+                  [&](size_t k) { (*position)[order[k]] = static_cast<uint32_t>(k); });
 }
 
 /* Renumbers the elimination so that it runs through the elimination tree in postorder. That changes */
@@ -11496,15 +11656,17 @@ static Status order_by_tree(const Csc& lower, Array<uint32_t>* order, Array<uint
   TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper, false));
   TRY(elimination_tree(upper, &tree));
   TRY(postorder(tree.span(), &post));
-  invert_order(post.span(), position->span());
-  for (uint32_t k = 0; k < n; ++k) {
+  TRY(invert_order(post.span(), position));
+  TRY(in_parts(context, n, [&](size_t k) {
     const uint32_t above = tree[post[k]];
     (*parent)[k] = above == k_none ? k_none : (*position)[above];
     (*order)[k] = given[post[k]];
-  }
-  invert_order(order->span(), position->span());
-  return {};
+  }));
+  return invert_order(order->span(), position);
 }
+
+/* A visit to an entry of the pattern takes as long as about so many multiplications. */
+static constexpr size_t k_entry_work = 4;
 
 /* Replaces the rows of the permuted pattern by their places in the panels. */
 Status Cholesky::locate_entries() {
@@ -11512,12 +11674,13 @@ Status Cholesky::locate_entries() {
   TRY(position.resize(n_));
   for (uint32_t s = 0; s < supernodes_.count; ++s) {
     const uint32_t* rows = supernodes_.rows(s);
-    TRY(checkpoint_at_column(*context_, s));
     for (uint32_t r = 0; r < supernodes_.height(s); ++r) position[rows[r]] = r;
     const uint32_t end = lower_.start[supernodes_.first[s + 1]];
     for (uint32_t k = lower_.start[supernodes_.first[s]]; k < end; ++k) {
       lower_.index[k] = position[lower_.index[k]];
     }
+    const uint32_t entries = end - lower_.start[supernodes_.first[s]];
+    TRY(count_work(k_entry_work * (size_t{supernodes_.height(s)} + entries)));
   }
   return {};
 }
@@ -11531,6 +11694,7 @@ Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
   TRY(order_.copy(order));
   TRY(position.assign(n_, k_none));
   for (uint32_t k = 0; k < n_; ++k) {
+    TRY(checkpoint_at_column(*context_, k));
     if (order[k] >= n_ || position[order[k]] != k_none) {
       return fail(Code::bad_argument, k_no_permutation);
     }
@@ -11549,7 +11713,7 @@ Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
     if (supernodes_.height(s) > tallest_) tallest_ = supernodes_.height(s);
   }
   nonzeros_ = 0;
-  for (const uint32_t c : count) nonzeros_ += c;
+  TRY(in_parts(*context_, n_, [&](size_t k) { nonzeros_ += count[k]; }));
   analysed_ = true;
   return {};
 }
@@ -11578,45 +11742,91 @@ Status Cholesky::allocate_workspace() {
   return scratch_.resize(scratch_size());
 }
 
-/* Adds the update matrix of a child to the front of its parent. */
-void Cholesky::add_child(uint32_t c, const Panel& panel) {
+Status Cholesky::count_work(size_t work) {
+  constexpr size_t k_work_per_checkpoint = size_t{1} << 21;
+  work_ += work;
+  if (work_ < k_work_per_checkpoint) return {};
+  work_ = 0;
+  return context_->checkpoint();
+}
+
+/* Adds the update matrix of a child to the columns first .. end of the front of its parent. */
+void Cholesky::add_child(uint32_t c, const Panel& panel, uint32_t first, uint32_t end) {
   const uint32_t tail = supernodes_.height(c) - supernodes_.width(c);
   const double* from = workspace_.data() + fronts_.update[c];
-  const Run* end = fronts_.run.data() + fronts_.run_start[c + 1];
-  for (const Run* run = fronts_.run.data() + fronts_.run_start[c]; run < end; ++run) {
-    for (uint32_t k = run->from; k < run->from + run->length; ++k) {
+  const Run* run = fronts_.run.data() + fronts_.run_start[c];
+  const Run* const last = fronts_.run.data() + fronts_.run_start[c + 1];
+  while (run < last && run->to + run->length <= first) ++run;
+  for (; run < last && run->to < end; ++run) {
+    const uint32_t behind = run->to + run->length;
+    for (uint32_t to = run->to < first ? first : run->to; to < behind && to < end; ++to) {
+      const uint32_t k = run->from + (to - run->to);
       const double* column = from + size_t{k} * round_up_rows(tail);
-      const uint32_t to = run->to + (k - run->from);
       if (to < panel.width) {
-        kernels_.add_runs(run, end, k, column, panel.at(0, to), 0);
+        kernels_.add_runs(run, last, k, column, panel.at(0, to), 0);
       } else {
         double* above = panel.update + size_t{to - panel.width} * round_up_rows(panel.tail());
-        kernels_.add_runs(run, end, k, column, above, panel.width);
+        kernels_.add_runs(run, last, k, column, above, panel.width);
       }
     }
   }
 }
 
-/* The front of `s`: entries of the matrix and updates of the children. */
-Panel Cholesky::assemble(uint32_t s, const double* source) {
-  Panel panel = {value_.data() + supernodes_.panel[s], supernodes_.height(s), supernodes_.width(s),
-                 workspace_.data() + fronts_.update[s], fronts_.child[s] == k_none};
-  const size_t size = supernodes_.panel[s + 1] - supernodes_.panel[s];
-  std::memset(panel.value, 0, size * sizeof(double));
-  for (uint32_t j = supernodes_.first[s]; j < supernodes_.first[s + 1]; ++j) {
-    double* column = panel.at(0, j - supernodes_.first[s]);
+Panel Cholesky::panel_of(uint32_t s) {
+  return {value_.data() + supernodes_.panel[s], supernodes_.height(s), supernodes_.width(s),
+          workspace_.data() + fronts_.update[s], fronts_.child[s] == k_none};
+}
+
+/* The columns first .. end of the front of `s`: entries of the matrix and updates of the children. */
+void Cholesky::assemble(uint32_t s, const double* source, uint32_t first, uint32_t end) {
+  const Panel panel = panel_of(s);
+  const uint32_t width = panel.width, tail = panel.tail(), rows = round_up_rows(tail);
+  if (first < width) {
+    const size_t from = trapezoid_size(panel.rows(), first);
+    const size_t to = end < width ? trapezoid_size(panel.rows(), end)
+                                  : supernodes_.panel[s + 1] - supernodes_.panel[s];
+    std::memset(panel.value + from, 0, (to - from) * sizeof(double));
+  }
+  for (uint32_t c = first; c < end && c < width; ++c) {
+    const uint32_t j = supernodes_.first[s] + c;
+    double* column = panel.at(0, c);
     for (uint32_t k = lower_.start[j]; k < lower_.start[j + 1]; ++k) {
       column[lower_.index[k]] = source[lower_.source[k]];
     }
   }
-  if (panel.first) return panel;
-  const uint32_t tail = panel.tail(), rows = round_up_rows(tail);
-  for (uint32_t k = 0; k < tail; ++k) {
+  if (panel.first) return;
+  for (uint32_t k = first < width ? 0 : first - width; k + width < end; ++k) {
     const uint32_t top = k / 4 * 4;
     std::memset(panel.update + size_t{k} * rows + top, 0, (rows - top) * sizeof(double));
   }
-  for (uint32_t c = fronts_.child[s]; c != k_none; c = fronts_.sibling[c]) add_child(c, panel);
-  return panel;
+  for (uint32_t c = fronts_.child[s]; c != k_none; c = fronts_.sibling[c]) {
+    add_child(c, panel, first, end);
+  }
+}
+
+/* Some columns after the other, with checkpoints between. */
+Status Cholesky::assemble_in_parts(uint32_t s, const double* source) {
+  constexpr uint32_t k_entries_per_checkpoint = 1u << 19;
+  const uint32_t height = supernodes_.height(s);
+  const uint32_t most = k_entries_per_checkpoint / height + 1;
+  for (uint32_t first = 0, end = 0; first < height; first = end) {
+    end = height - first < most ? height : first + most;
+    assemble(s, source, first, end);
+    if (end < height) TRY(context_->checkpoint());
+  }
+  return {};
+}
+
+/* Returns the first bad column, or k_none. */
+uint32_t Cholesky::factor_supernode(uint32_t s, const double* source, const PanelTools& tools) {
+  assemble(s, source, 0, supernodes_.height(s));
+  return factor_panel(tools, panel_of(s));
+}
+
+Status Cholesky::refuse_column(uint32_t s, uint32_t column) const {
+  Place place;
+  place.vertex = order_[supernodes_.first[s] + column];
+  return fail(Code::not_positive_definite, "the matrix is not positive definite", place);
 }
 
 /* A batch of tasks under way; bad_*: of each task, where it failed. */
@@ -11632,48 +11842,58 @@ void Cholesky::factor_task(uint32_t index, void* data) {
   Batch& batch = *static_cast<Batch*>(data);
   Cholesky& self = *batch.self;
   const Task& task = self.fronts_.task[batch.first_task + index];
-  const uint32_t slot = self.context_->is_parallel() ? index % self.slots() : 0;
-  const PanelTools tools = {&self.kernels_, self.scratch_.data() + slot * k_update_scratch, 1};
+  const PanelTools tools = {&self.kernels_, self.scratch_.data() + index * k_update_scratch, 1};
   batch.bad_column[index] = k_none;
   for (uint32_t s = task.first; s <= task.root && batch.bad_column[index] == k_none; ++s) {
     batch.bad_supernode[index] = s;
-    batch.bad_column[index] = factor_panel(tools, self.assemble(s, batch.source));
+    batch.bad_column[index] = self.factor_supernode(s, batch.source, tools);
   }
 }
 
-Status Cholesky::refuse_column(uint32_t s, uint32_t column) const {
-  Place place;
-  place.vertex = order_[supernodes_.first[s] + column];
-  return fail(Code::not_positive_definite, "the matrix is not positive definite", place);
-}
-
-Status Cholesky::factor_step(const Step& step, const double* source) {
+/* Side by side. */
+Status Cholesky::factor_tasks(uint32_t first, uint32_t end, const double* source) {
   Batch batch = {};
   batch.self = this;
   batch.source = source;
-  const bool divided = slots() > 1;
-  for (uint32_t first = step.first_task; first < step.end_task;) {
-    /* One by one there is a checkpoint after each task. */
-    const uint32_t count = divided ? step.end_task - first : 1;
-    batch.first_task = first;
-    if (divided) {
-      context_->for_each(count, &factor_task, &batch);
-    } else {
-      factor_task(0, &batch);
+  batch.first_task = first;
+  context_->for_each(end - first, &factor_task, &batch);
+  for (uint32_t t = 0; t < end - first; ++t) {
+    if (batch.bad_column[t] != k_none) {
+      return refuse_column(batch.bad_supernode[t], batch.bad_column[t]);
     }
-    for (uint32_t t = 0; t < count; ++t) {
-      if (batch.bad_column[t] != k_none) {
-        return refuse_column(batch.bad_supernode[t], batch.bad_column[t]);
-      }
+  }
+  return context_->checkpoint();
+}
+
+/* On this thread, where there may be checkpoints on the way. */
+Status Cholesky::factor_one_task(const Task& task, const double* source) {
+  constexpr size_t k_column_overhead = 16;  /* multiplications for each row of a column, or so */
+  const PanelTools tools = {&kernels_, scratch_.data(), 1};
+  for (uint32_t s = task.first; s <= task.root; ++s) {
+    const uint32_t bad = factor_supernode(s, source, tools);
+    if (bad != k_none) return refuse_column(s, bad);
+    const size_t height = supernodes_.height(s);
+    TRY(count_work(height * height * (supernodes_.width(s) + k_column_overhead) / 2));
+  }
+  return context_->checkpoint();
+}
+
+Status Cholesky::factor_step(const Step& step, const double* source) {
+  if (slots() > 1) {
+    if (step.first_task < step.end_task) {
+      TRY(factor_tasks(step.first_task, step.end_task, source));
     }
-    first += count;
-    TRY(context_->checkpoint());
+  } else {
+    for (uint32_t t = step.first_task; t < step.end_task; ++t) {
+      TRY(factor_one_task(fronts_.task[t], source));
+    }
   }
   const PanelTools tools = {&kernels_, scratch_.data(), slots()};
   for (uint32_t u = step.first_upper; u < step.end_upper; ++u) {
     const uint32_t s = fronts_.upper[u];
     uint32_t bad = k_none;
-    TRY(factor_panel_in_parts(*context_, tools, assemble(s, source), &bad));
+    TRY(assemble_in_parts(s, source));
+    TRY(factor_panel_in_parts(*context_, tools, panel_of(s), &bad));
     if (bad != k_none) return refuse_column(s, bad);
   }
   return {};
@@ -11803,7 +12023,7 @@ static Lanes lanes_at(double* at, size_t step, uint32_t lanes) {
 
 /* y_S := L_SS^-1 y_S, then the rows below lose L_TS y_S: eight columns at a time, so that the panel */
 /* is read from end to end. */
-void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
+Status Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
   size_t step = supernodes_.column_step(s);
@@ -11816,16 +12036,18 @@ void Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
     const uint32_t after = j + columns;
     if (after < width) fetch(block + k_block * step, columns * step);
     solve_triangle(kernels_, triangle_at(block, step, columns, false), j, false, z);
+    TRY(count_work(size_t{height - j} * columns * lanes));
     if (after == height) break;
     kernels_.update({round_up_rows(height - after), lanes, columns, block + columns, step,
                      z.value + j, z.step, 1, z.value + after, z.step, false, false},
                     scratch_.data());
   }
   scatter_lanes(supernodes_.rows(s), height, z, y);
+  return {};
 }
 
 /* y_S loses L_TS^T y_T, then y_S := L_SS^-T y_S. Behind the last row the lanes are zero. */
-void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
+Status Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
   constexpr uint32_t k_block = DiagonalBlock::k_size;
   const uint32_t width = supernodes_.width(s), height = supernodes_.height(s);
   uint32_t j = (width - 1) / k_block * k_block + k_block;
@@ -11850,16 +12072,10 @@ void Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
                               z.value + after, z.step, z.value + j, z.step});
     }
     solve_triangle(kernels_, triangle_at(block, step, columns, true), j, true, z);
+    TRY(count_work(size_t{height - j} * columns * lanes));
   }
   scatter_lanes(supernodes_.rows(s), width, z, y);
-}
-
-Status Cholesky::count_solve(uint32_t s, uint32_t lanes, size_t* work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 23;
-  *work += size_t{supernodes_.height(s)} * supernodes_.width(s) * lanes;
-  if (*work < k_work_per_checkpoint) return {};
-  *work = 0;
-  return context_->checkpoint();
+  return {};
 }
 
 Status Cholesky::solve(Span<double> x, uint32_t columns) {
@@ -11871,27 +12087,19 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
   const size_t room = right_hand_sides + lanes_size(lane_step(), columns);
   if (workspace_.size() < room) workspace_.clear();
   TRY(workspace_.resize(room));
-  for (uint32_t k = 0; k < n_; ++k) {
+  TRY(in_parts(*context_, n_, [&](size_t k) {
     const double* from = x.data() + size_t{order_[k]} * columns;
-    double* to = workspace_.data() + size_t{k} * columns;
+    double* to = workspace_.data() + k * columns;
     for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
-  }
+  }));
   for (size_t k = right_hand_sides; k < room; ++k) workspace_[k] = 0.0;
-  size_t work = 0;
-  for (uint32_t s = 0; s < supernodes_.count; ++s) {
-    solve_forward(s, columns);
-    TRY(count_solve(s, columns, &work));
-  }
-  for (uint32_t s = supernodes_.count; s-- > 0;) {
-    solve_backward(s, columns);
-    TRY(count_solve(s, columns, &work));
-  }
-  for (uint32_t k = 0; k < n_; ++k) {
+  for (uint32_t s = 0; s < supernodes_.count; ++s) TRY(solve_forward(s, columns));
+  for (uint32_t s = supernodes_.count; s-- > 0;) TRY(solve_backward(s, columns));
+  return in_parts(*context_, n_, [&](size_t k) {
     double* to = x.data() + size_t{order_[k]} * columns;
-    const double* from = workspace_.data() + size_t{k} * columns;
+    const double* from = workspace_.data() + k * columns;
     for (uint32_t c = 0; c < columns; ++c) to[c] = from[c];
-  }
-  return {};
+  });
 }
 
 }  /* namespace wireskin::sparse */
@@ -11901,8 +12109,7 @@ Status Cholesky::solve(Span<double> x, uint32_t columns) {
 namespace wireskin::sparse {
 
 static Status apply_symmetric(void* self, Span<const double> x, Span<double> y) {
-  multiply_symmetric(*static_cast<const Csc*>(self), x, y, 1);
-  return {};
+  return multiply_symmetric(*static_cast<const Csc*>(self), x, y, 1);
 }
 
 LinearOperator symmetric_operator(const Csc& lower) {
@@ -11911,7 +12118,7 @@ LinearOperator symmetric_operator(const Csc& lower) {
 }
 
 static Status apply_inverse(void* self, Span<const double> x, Span<double> y) {
-  for (size_t i = 0; i < x.size(); ++i) y[i] = x[i];
+  if (!x.empty()) std::memcpy(y.data(), x.data(), x.size() * sizeof(double));
   return static_cast<Cholesky*>(self)->solve(y, 1);
 }
 
@@ -11921,24 +12128,30 @@ LinearOperator inverse_operator(Cholesky& factor) {
 
 Status Jacobi::build(const Csc& lower) {
   TRY(diagonal_.resize(lower.cols));
-  for (uint32_t j = 0; j < lower.cols; ++j) diagonal_[j] = lower.value[lower.start[j]];
-  return {};
+  return in_parts(diagonal_.context(), lower.cols,
+                  [&](size_t j) { diagonal_[j] = lower.value[lower.start[j]]; });
 }
 
 Status Jacobi::apply(void* self, Span<const double> x, Span<double> y) {
   const Array<double>& diagonal = static_cast<const Jacobi*>(self)->diagonal_;
-  for (size_t i = 0; i < x.size(); ++i) y[i] = x[i] / diagonal[i];
+  return in_parts(diagonal.context(), x.size(), [&](size_t i) { y[i] = x[i] / diagonal[i]; });
+}
+
+static Status dot(Context& context, Span<const double> a, Span<const double> b, double* result) {
+  double sum = 0.0;
+  TRY(in_parts(context, a.size(), [&](size_t i) { sum += a[i] * b[i]; }));
+  *result = sum;
   return {};
 }
 
-static double dot(Span<const double> a, Span<const double> b) {
-  double sum = 0.0;
-  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+static Status norm(Context& context, Span<const double> a, double* result) {
+  TRY(dot(context, a, a, result));
+  *result = std::sqrt(*result);
+  return {};
 }
 
-static void add_multiple(Span<double> y, double factor, Span<const double> x) {
-  for (size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
+static Status add_multiple(Context& context, Span<double> y, double factor, Span<const double> x) {
+  return in_parts(context, y.size(), [&](size_t i) { y[i] += factor * x[i]; });
 }
 
 static bool is_positive(double value) {
@@ -11966,31 +12179,31 @@ struct CgState {
 static Status iterate(Context& context, CgState* s, double goal, uint32_t max_iterations,
                       uint32_t* iterations) {
   const Span<double> r = s->r.span(), z = s->z.span(), p = s->p.span(), q = s->q.span();
-  double rz_before = 0.0;
+  double rz = 0.0, rz_before = 0.0, curvature = 0.0, length = 0.0;
   for (bool first = true; *iterations < max_iterations; first = false) {
     TRY(context.checkpoint());
     TRY(s->preconditioner->apply(s->preconditioner->self, r, z));
-    const double rz = dot(r, z);
+    TRY(dot(context, r, z, &rz));
     if (!is_positive(rz)) return break_down();
     const double beta = first ? 0.0 : rz / rz_before;
-    for (size_t i = 0; i < p.size(); ++i) p[i] = first ? z[i] : z[i] + beta * p[i];
+    TRY(in_parts(context, p.size(), [&](size_t i) { p[i] = first ? z[i] : z[i] + beta * p[i]; }));
     TRY(s->a->apply(s->a->self, p, q));
-    const double curvature = dot(p, q);
+    TRY(dot(context, p, q, &curvature));
     if (!is_positive(curvature)) return break_down();
     const double alpha = rz / curvature;
-    add_multiple(s->x, alpha, p);
-    add_multiple(r, -alpha, q);
+    TRY(add_multiple(context, s->x, alpha, p));
+    TRY(add_multiple(context, r, -alpha, q));
     rz_before = rz;
     ++*iterations;
-    if (!(std::sqrt(dot(r, r)) > goal)) break;
+    TRY(norm(context, r, &length));
+    if (!(length > goal)) break;
   }
   return {};
 }
 
-static Status true_residual(CgState* s) {
+static Status true_residual(Context& context, CgState* s) {
   TRY(s->a->apply(s->a->self, s->x, s->r.span()));
-  for (size_t i = 0; i < s->x.size(); ++i) s->r[i] = s->b[i] - s->r[i];
-  return {};
+  return in_parts(context, s->x.size(), [&](size_t i) { s->r[i] = s->b[i] - s->r[i]; });
 }
 
 Status conjugate_gradients(Context& context, const LinearOperator& a,
@@ -12003,7 +12216,8 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
   TRY(state.z.resize(b.size()));
   TRY(state.p.resize(b.size()));
   TRY(state.q.resize(b.size()));
-  const double scale = std::sqrt(dot(b, b));
+  double scale = 0.0, length = 0.0;
+  TRY(norm(context, b, &scale));
   if (scale == 0.0) {
     for (double& entry : x) entry = 0.0;
     result->converged = true;
@@ -12011,8 +12225,9 @@ Status conjugate_gradients(Context& context, const LinearOperator& a,
   }
   double before = 0.0;
   for (bool first = true;; first = false) {
-    TRY(true_residual(&state));
-    result->residual = std::sqrt(dot(state.r.span(), state.r.span())) / scale;
+    TRY(true_residual(context, &state));
+    TRY(norm(context, state.r.span(), &length));
+    result->residual = length / scale;
     if (!(result->residual <= DBL_MAX)) return break_down();
     result->converged = result->residual <= options.tolerance;
     if (result->converged || result->iterations >= options.max_iterations) return {};
@@ -12054,45 +12269,48 @@ static Vec3 multiply_row(const sparse::Csc& a, uint32_t j, Span<const Vec3> x) {
 }
 
 /* y = A x; columns that meet zeros are spared where there are many. */
-static void multiply_vectors(const sparse::Csc& a, Span<const Vec3> x, Span<Vec3> y) {
+static Status multiply_vectors(Context& context, const sparse::Csc& a, Span<const Vec3> x,
+                               Span<Vec3> y) {
   if (!is_mostly_zero(x)) {
-    for (uint32_t j = 0; j < a.cols; ++j) y[j] = multiply_row(a, j, x);
-    return;
+    return in_parts(context, a.cols,
+                    [&](size_t j) { y[j] = multiply_row(a, static_cast<uint32_t>(j), x); });
   }
-  for (Vec3& v : y) v = Vec3{};
-  for (uint32_t j = 0; j < a.cols; ++j) {
-    if (x[j] == Vec3{}) continue;
+  TRY(in_parts(context, y.size(), [&](size_t j) { y[j] = Vec3{}; }));
+  return in_parts(context, a.cols, [&](size_t j) {
+    if (x[j] == Vec3{}) return;
     for (uint32_t p = a.start[j]; p < a.start[j + 1]; ++p) y[a.row[p]] += a.value[p] * x[j];
-  }
+  });
 }
 
 Status System::prepare(const sparse::Csc& laplacian, Span<const uint8_t> fixed, Order order,
                        const Places& places) {
+  Context& context = weight_.context();
   laplacian_ = &laplacian;
   order_ = order;
   analysed_ = iterative_ = false;
   unknowns_ = 0;
   TRY(unknown_.resize(fixed.size()));
-  for (size_t v = 0; v < fixed.size(); ++v) unknown_[v] = fixed[v] ? k_none : unknowns_++;
+  TRY(in_parts(context, fixed.size(),
+               [&](size_t v) { unknown_[v] = fixed[v] ? k_none : unknowns_++; }));
   place_.clear();
   patch_.clear();
   if (!places.position.empty()) {
     TRY(place_.reserve(unknowns_));
     TRY(patch_.reserve(unknowns_));
-    for (size_t v = 0; v < fixed.size(); ++v) {
-      if (fixed[v]) continue;
+    TRY(in_parts(context, fixed.size(), [&](size_t v) {
+      if (fixed[v]) return;
       place_.push_reserved(places.position[v]);
       patch_.push_reserved(places.patch[v]);
-    }
+    }));
   }
   return {};
 }
 
 /* Columns begin with their diagonal. */
-void System::add_penalties() {
-  for (size_t v = 0; v < penalty_.size(); ++v) {
+Status System::add_penalties() {
+  return in_parts(weight_.context(), penalty_.size(), [&](size_t v) {
     if (unknown_[v] != k_none) matrix_.value[matrix_.start[unknown_[v]]] += penalty_[v];
-  }
+  });
 }
 
 Status System::find_order(const sparse::Csc& matrix, Array<uint32_t>* order) const {
@@ -12132,9 +12350,9 @@ Status System::prepare_iteration() {
   Array<double> shift(context);
   if (order_ == Order::two && !penalty_.empty()) {
     TRY(shift.resize(penalty_.size()));
-    for (size_t v = 0; v < shift.size(); ++v) {
+    TRY(in_parts(context, shift.size(), [&](size_t v) {
       shift[v] = std::sqrt(weight_[v] > 0.0 ? penalty_[v] / weight_[v] : penalty_[v]);
-    }
+    }));
   }
   TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, shift.span(), &part));
   if (!iterative_) {
@@ -12151,13 +12369,14 @@ Status System::prepare_iteration() {
 /* y = (L_ff W L_ff)^-1 x, for order 3 (L_ff W L_ff W L_ff)^-1 x up to the sign. */
 Status System::apply_laplacian_inverses(void* self, Span<const double> x, Span<double> y) {
   System& system = *static_cast<System*>(self);
-  for (size_t i = 0; i < x.size(); ++i) y[i] = x[i];
+  Context& context = system.weight_.context();
+  TRY(in_parts(context, x.size(), [&](size_t i) { y[i] = x[i]; }));
   for (int k = 1; k < static_cast<int>(system.order_); ++k) {
     TRY(system.factor_.solve(y, 1));
-    for (size_t v = 0; v < system.weight_.size(); ++v) {
+    TRY(in_parts(context, system.weight_.size(), [&](size_t v) {
       const uint32_t i = system.unknown_[v];
       if (i != k_none && system.weight_[v] > 0.0) y[i] /= system.weight_[v];
-    }
+    }));
   }
   return system.factor_.solve(y, 1);
 }
@@ -12170,17 +12389,17 @@ Status System::iterate(size_t columns) {
   TRY(b.resize(unknowns_));
   TRY(x.resize(unknowns_));
   for (size_t c = 0; c < columns; ++c) {
-    for (size_t i = 0; i < unknowns_; ++i) {
+    TRY(in_parts(context, unknowns_, [&](size_t i) {
       b[i] = block_[columns * i + c];
       x[i] = 0.0;
-    }
+    }));
     sparse::CgResult result;
     TRY(sparse::conjugate_gradients(context, sparse::symmetric_operator(matrix_),
                                     {&apply_laplacian_inverses, this}, b.span(), x.span(), options,
                                     &result));
     context.count_iterations(result.iterations);
     if (!(result.residual <= 1e-6)) return no_room_for_factor();
-    for (size_t i = 0; i < unknowns_; ++i) block_[columns * i + c] = x[i];
+    TRY(in_parts(context, unknowns_, [&](size_t i) { block_[columns * i + c] = x[i]; }));
   }
   return {};
 }
@@ -12190,6 +12409,7 @@ Status System::factor(Span<const double> weight, Span<const double> penalty, boo
   TRY(context.enter(Stage::operators));
   TRY(weight_.copy(weight));
   TRY(penalty_.copy(penalty));
+  TRY(context.checkpoint());
   if (unknowns_ == 0) return {};
   if (order_ == Order::one) {
     TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, {}, &matrix_));
@@ -12202,16 +12422,16 @@ Status System::factor(Span<const double> weight, Span<const double> penalty, boo
     sparse::Csc squared(context);
     TRY(all.resize(weight.size()));
     TRY(minus.resize(weight.size()));
-    for (uint32_t v = 0; v < weight.size(); ++v) {
-      all[v] = v;
+    TRY(in_parts(context, weight.size(), [&](size_t v) {
+      all[v] = static_cast<uint32_t>(v);
       minus[v] = -weight[v];
-    }
+    }));
     TRY(sparse::weighted_product(*laplacian_, weight, *laplacian_, all.span(), laplacian_->cols,
                                  sparse::Part::all, &squared));
     TRY(sparse::weighted_product(squared, minus.span(), *laplacian_, unknown_.span(), unknowns_,
                                  sparse::Part::lower, &matrix_));
   }
-  add_penalties();
+  TRY(add_penalties());
   TRY(context.enter(Stage::factor));
   const bool first = !analysed_;
   if (first) TRY(analyse());
@@ -12243,37 +12463,38 @@ Status System::find_gradients(Span<const Field3> fields, double* squares) {
     for (int k = 1; k < static_cast<int>(order_); ++k) {
       const Span<Vec3> y = k == 1 ? image.span() : spare.span();
       const bool aims = k == 1 && !field.target.empty();
-      multiply_vectors(*laplacian_, x, y);
-      for (size_t v = 0; v < n; ++v) y[v] = weight_[v] * (aims ? field.target[v] - y[v] : -y[v]);
+      TRY(multiply_vectors(context, *laplacian_, x, y));
+      TRY(in_parts(context, n,
+                   [&](size_t v) { y[v] = weight_[v] * (aims ? field.target[v] - y[v] : -y[v]); }));
       x = y;
     }
     Vec3 sum;
-    for (uint32_t v = 0; v < n; ++v) {
-      if (unknown_[v] == k_none) continue;
-      Vec3 g = multiply_row(*laplacian_, v, x);
+    TRY(in_parts(context, n, [&](size_t v) {
+      if (unknown_[v] == k_none) return;
+      Vec3 g = multiply_row(*laplacian_, static_cast<uint32_t>(v), x);
       if (!penalty_.empty() && penalty_[v] != 0.0) {
         g += penalty_[v] * (field.anchor[v] - field.value[v]);
       }
       double* row = &block_[columns * unknown_[v] + 3 * f];
       row[0] = g.x, row[1] = g.y, row[2] = g.z;
       sum += Vec3{g.x * g.x, g.y * g.y, g.z * g.z};
-    }
+    }));
     squares[3 * f] = sum.x, squares[3 * f + 1] = sum.y, squares[3 * f + 2] = sum.z;
     TRY(context.checkpoint());
   }
   return {};
 }
 
-void System::add_solutions(Span<const Field3> fields) const {
+Status System::add_solutions(Span<const Field3> fields) const {
   const size_t columns = 3 * fields.size();
-  for (size_t v = 0; v < unknown_.size(); ++v) {
-    if (unknown_[v] == k_none) continue;
+  return in_parts(weight_.context(), unknown_.size(), [&](size_t v) {
+    if (unknown_[v] == k_none) return;
     const double* row = &block_[columns * unknown_[v]];
     for (const Field3& field : fields) {
       field.value[v] += Vec3{row[0], row[1], row[2]};
       row += 3;
     }
-  }
+  });
 }
 
 static double greatest_ratio(const double* left, const double* whole, size_t columns) {
@@ -12290,13 +12511,14 @@ Status System::solve(Span<const Field3> fields, double* residual) {
   double whole[3 * k_most], left[3 * k_most];
   const size_t columns = 3 * fields.size();
   WIRESKIN_ASSERT(fields.size() <= k_most);
-  TRY(weight_.context().enter(Stage::solve));
+  Context& context = weight_.context();
+  TRY(context.enter(Stage::solve));
   *residual = 0.0;
   if (unknowns_ == 0) return {};
   for (const Field3& field : fields) {
-    for (size_t v = 0; v < unknown_.size(); ++v) {
+    TRY(in_parts(context, unknown_.size(), [&](size_t v) {
       if (unknown_[v] != k_none) field.value[v] = Vec3{};
-    }
+    }));
   }
   TRY(block_.resize(columns * unknowns_));
   TRY(find_gradients(fields, whole));
@@ -12305,13 +12527,13 @@ Status System::solve(Span<const Field3> fields, double* residual) {
   } else {
     TRY(factor_.solve(block_.span(), static_cast<uint32_t>(columns)));
   }
-  add_solutions(fields);
+  TRY(add_solutions(fields));
   TRY(find_gradients(fields, left));
   *residual = greatest_ratio(left, whole, columns);
   const double good = unknowns_ <= 30000 ? 1e-12 : unknowns_ <= 300000 ? 1e-11 : 1e-10;
   if (!iterative_ && *residual > good) {  /* one step of iterative refinement */
     TRY(factor_.solve(block_.span(), static_cast<uint32_t>(columns)));
-    add_solutions(fields);
+    TRY(add_solutions(fields));
     TRY(find_gradients(fields, left));
     *residual = greatest_ratio(left, whole, columns);
   }
@@ -12334,24 +12556,24 @@ static Status add_conormals(Context& context, const Domain& domain, const Field&
   Array<uint32_t> twins(context);
   const uint32_t n = static_cast<uint32_t>(field.position.size());
   TRY(mesh::find_twins(n, domain.triangle, &twins));
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] != k_none) continue;
-    const uint32_t a = domain.triangle[h], b = domain.triangle[mesh::next_half_edge(h)];
+  return in_parts(context, twins.size(), [&](size_t h) {
+    if (twins[h] != k_none) return;
+    const uint32_t next = mesh::next_half_edge(static_cast<uint32_t>(h));
+    const uint32_t a = domain.triangle[h], b = domain.triangle[next];
     const Vec3 edge = field.position[b] - field.position[a];
     const Vec3 half = 0.5 * cross(edge, unit(field.normal[a] + field.normal[b]));
     conormal[a] += half;
     conormal[b] += half;
-  }
-  return {};
+  });
 }
 
 /* The inverse mixed Voronoi areas; zero for rows that are left out. */
-static void row_weights(const Domain& domain, bool border_rows, Span<const double> area,
-                        Span<double> weight) {
-  for (size_t v = 0; v < weight.size(); ++v) {
+static Status row_weights(Context& context, const Domain& domain, bool border_rows,
+                          Span<const double> area, Span<double> weight) {
+  return in_parts(context, weight.size(), [&](size_t v) {
     const bool bare = !domain.bare.empty() && domain.bare[v];
     weight[v] = bare || (domain.on_border[v] && !border_rows) ? 0.0 : 1.0 / area[v];
-  }
+  });
 }
 
 namespace {
@@ -12377,12 +12599,11 @@ struct Guided {
 static Status penalties(const Domain& domain, int order, bool normals, Array<double>* penalty) {
   const Soft& soft = domain.soft;
   TRY(penalty->assign(soft.cutoff.size(), 0.0));
-  for (size_t v = 0; v < penalty->size(); ++v) {
-    if (soft.cutoff[v] == 0.0) continue;
+  return in_parts(penalty->context(), penalty->size(), [&](size_t v) {
+    if (soft.cutoff[v] == 0.0) return;
     const double cutoff = normals ? soft.normal_cutoff(v) : soft.cutoff[v];
     (*penalty)[v] = spring(soft.share[v], cutoff, order);
-  }
-  return {};
+  });
 }
 
 /* Bare vertices take the normal that the surface has there by itself: the current one in space, the */
@@ -12397,17 +12618,16 @@ static Status estimate_bare_normals(Context& context, const Domain& domain, cons
     TRY(guided->system.factor(guided->weight.span(), penalty.span()));
     TRY(guided->system.solve({}, domain.soft.position, field.position, residual));
   }
-  mesh::vertex_normals(field.position, domain.triangle, normal.span());
-  for (size_t v = 0; v < normal.size(); ++v) {
+  TRY(mesh::vertex_normals(context, field.position, domain.triangle, normal.span()));
+  return in_parts(context, normal.size(), [&](size_t v) {
     if (domain.bare[v]) field.normal[v] = normal[v];
-  }
-  return {};
+  });
 }
 
-static void make_unit(const Domain& domain, const Field& field) {
-  for (size_t v = 0; v < domain.held.size(); ++v) {
+static Status make_unit(Context& context, const Domain& domain, const Field& field) {
+  return in_parts(context, domain.held.size(), [&](size_t v) {
     if (!domain.held[v]) field.normal[v] = unit(field.normal[v]);
-  }
+  });
 }
 
 /* Open borders: in the planes of the patches the Laplacian of a border vertex means nothing, its */
@@ -12421,8 +12641,7 @@ static Status aim_at_conormals(Context& context, const Domain& domain, const Fie
   TRY(guided->conormal.assign(n, Vec3{}));
   TRY(guided->target.resize(n));
   TRY(add_conormals(context, domain, field, guided->conormal.span()));
-  for (size_t v = 0; v < n; ++v) guided->target[v] = -guided->conormal[v];
-  return {};
+  return in_parts(context, n, [&](size_t v) { guided->target[v] = -guided->conormal[v]; });
 }
 
 /* Normals and positions spread from the curves: N* (unit) and V*. Without soft vertices one factor */
@@ -12441,11 +12660,10 @@ static Status propagate(Context& context, const Domain& domain, Method method, c
     TRY(aim_at_conormals(context, domain, field, guided));
     const Field3 both[] = {normals, {guided->target.span(), {}, field.position}};
     TRY(guided->system.solve({both, 2}, residual));
-    make_unit(domain, field);
-    return {};
+    return make_unit(context, domain, field);
   }
   TRY(guided->system.solve({&normals, 1}, residual));
-  make_unit(domain, field);
+  TRY(make_unit(context, domain, field));
   TRY(aim_at_conormals(context, domain, field, guided));
   TRY(penalties(domain, 2, false, &penalty));
   TRY(guided->system.factor(guided->weight.span(), penalty.span()));
@@ -12460,13 +12678,13 @@ static Status fit(Context& context, const Domain& domain, Method method, const F
   const bool clamped = method == Method::clamped;
   const bool has_conormals = !guided->conormal.empty();
   TRY(guided->target.resize(field.position.size()));
-  for (size_t v = 0; v < field.position.size(); ++v) {
+  TRY(in_parts(context, field.position.size(), [&](size_t v) {
     const bool guides = !clamped || domain.on_curve[v];
     const double scale = guides ? -2.0 * guided->area[v] * guided->curvature[v] : 0.0;
     guided->target[v] = scale * field.normal[v];
     if (has_conormals) guided->target[v] -= guided->conormal[v];
     if (clamped && domain.on_curve[v]) guided->weight[v] *= k_clamp_penalty;
-  }
+  }));
   if (clamped) {
     Array<double> penalty(context);
     TRY(penalties(domain, 2, false, &penalty));
@@ -12486,10 +12704,10 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
   TRY(mesh::cotangent_laplacian(n, domain.triangle, domain.shape, &laplacian));
   TRY(guided.area.resize(n));
   TRY(guided.weight.resize(n));
-  mesh::mixed_voronoi_areas(domain.triangle, domain.shape, guided.area.span());
+  TRY(mesh::mixed_voronoi_areas(context, domain.triangle, domain.shape, guided.area.span()));
   if (domain.spent != nullptr) domain.spent->free();
-  row_weights(domain, uses_normals && domain.metric == Metric::space, guided.area.span(),
-              guided.weight.span());
+  TRY(row_weights(context, domain, uses_normals && domain.metric == Metric::space,
+                  guided.area.span(), guided.weight.span()));
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
   TRY(guided.system.prepare(laplacian, domain.held, order, domain.places));
   if (domain.spent_places != nullptr) domain.spent_places->free();
@@ -12611,12 +12829,15 @@ static Status take_vertices(const network::CurveVertices& vertices,
   TRY(surface->position.assign(patches.vertices, Vec3{}));
   TRY(surface->constraint_normal.assign(patches.vertices, Vec3{}));
   TRY(surface->vertex_curve.assign(patches.vertices, k_none));
-  for (size_t v = 0; v < given; ++v) {
+  Context& context = surface->position.context();
+  TRY(in_parts(context, given, [&](size_t v) {
     surface->position[v] = vertices.position[v];
     surface->constraint_normal[v] = vertices.normal[v];
     surface->vertex_curve[v] = vertices.curve[v];
-  }
+  }));
+  TRY(context.checkpoint());
   TRY(surface->triangle.copy(patches.triangle.span()));
+  TRY(context.checkpoint());
   return surface->patch.copy(patches.patch.span());
 }
 
@@ -12725,7 +12946,8 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   }
   TRY(verify_surface(context, network, surface->position.span(), *surface));
   if (!original.empty()) {  /* the smoothing counted those that are left */
-    for (uint32_t& p : surface->patch) p = original[p];
+    TRY(in_parts(context, surface->patch.size(),
+                 [&](size_t t) { surface->patch[t] = original[surface->patch[t]]; }));
     counts->patches += counts->failed_patches;
     uint32_t& inverted = counts->first_inverted_patch;
     if (inverted != k_none) inverted = original[inverted];
@@ -12736,12 +12958,14 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
 
 /* Every component and every border must be held, or the surface would be free to float away. */
 static Status check_held(const TriangleSet& set, const mesh::Topology& topology) {
-  Array<uint8_t> anchored(topology.component.context());
+  Context& context = topology.component.context();
+  Array<uint8_t> anchored(context);
   TRY(anchored.assign(topology.components, 0));
-  for (uint32_t v = 0; v < set.constrained.size(); ++v) {
+  TRY(in_parts(context, set.constrained.size(), [&](size_t v) {
     if (set.constrained[v]) anchored[topology.component[v]] = 1;
-  }
+  }));
   for (uint32_t v = 0; v < set.constrained.size(); ++v) {
+    if (v % 65536 == 65535) TRY(context.checkpoint());
     Place place;
     place.vertex = v;
     if (topology.on_border[v] && !set.constrained[v]) {
@@ -12754,12 +12978,15 @@ static Status check_held(const TriangleSet& set, const mesh::Topology& topology)
   return {};
 }
 
-static double mean_edge_length(Span<const Vec3> positions, Span<const uint32_t> triangles) {
+static Status mean_edge_length(Context& context, Span<const Vec3> positions,
+                               Span<const uint32_t> triangles, double* mean) {
   double sum = 0.0;
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    sum += length(positions[triangles[mesh::next_half_edge(h)]] - positions[triangles[h]]);
-  }
-  return sum / static_cast<double>(triangles.size());
+  TRY(in_parts(context, triangles.size(), [&](size_t h) {
+    const uint32_t next = triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    sum += length(positions[next] - positions[triangles[h]]);
+  }));
+  *mean = sum / static_cast<double>(triangles.size());
+  return {};
 }
 
 static Status take_triangles(const TriangleSet& set, Surface* surface) {
@@ -12772,12 +12999,11 @@ static Status take_triangles(const TriangleSet& set, Surface* surface) {
   TRY(surface->patches.curve_start.assign(2, 0));
   TRY(surface->constraint_normal.assign(n, Vec3{}));
   TRY(surface->vertex_curve.assign(n, k_none));
-  for (size_t v = 0; v < n; ++v) {
-    if (!set.constrained[v]) continue;
+  return in_parts(surface->position.context(), n, [&](size_t v) {
+    if (!set.constrained[v]) return;
     surface->vertex_curve[v] = 0;
     if (!set.normal.empty()) surface->constraint_normal[v] = set.normal[v];
-  }
-  return {};
+  });
 }
 
 Status surface_triangles(Context& context, const TriangleSet& set, const Settings& settings,
@@ -12790,11 +13016,11 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
 
   TRY(context.enter(Stage::patches));
   TRY(count_topology(n, set.triangle, &topology, counts));
-  TRY(mesh::check_areas(set.position, set.triangle));
+  TRY(mesh::check_areas(context, set.position, set.triangle));
   TRY(check_held(set, topology));
   counts->patches = 1;
   for (uint8_t constrained : set.constrained) counts->free_vertices += constrained == 0;
-  counts->spacing = mean_edge_length(set.position, set.triangle);
+  TRY(mean_edge_length(context, set.position, set.triangle, &counts->spacing));
   TRY(take_triangles(set, surface));
   TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
   TRY(check_cutoff(set.soft, diagonal(set.position), k_none));
@@ -12930,16 +13156,17 @@ static const uint32_t* write_indices(unsigned char* block, size_t offset,
   return reinterpret_cast<const uint32_t*>(block + offset);
 }
 
-static void write_curvatures(const Surface& surface, const SurfaceLayout& layout,
-                             const Scale& curvatures, unsigned char* block,
-                             wsk_surface_view* view) {
-  const size_t n = surface.position.size();
+static Status write_curvatures(Context& context, const Surface& surface,
+                               const SurfaceLayout& layout, const Scale& curvatures,
+                               unsigned char* block, wsk_surface_view* view) {
   double* h = reinterpret_cast<double*>(block + layout.curvature);
-  for (size_t v = 0; v < n; ++v) h[v] = curvatures(surface.mean_curvature[v]);
-  view->mean_curvature = h;
   double* k = reinterpret_cast<double*>(block + layout.gaussian);
-  for (size_t v = 0; v < n; ++v) k[v] = curvatures(curvatures(surface.gaussian_curvature[v]));
+  view->mean_curvature = h;
   view->gaussian_curvature = k;
+  return in_parts(context, surface.position.size(), [&](size_t v) {
+    h[v] = curvatures(surface.mean_curvature[v]);
+    k[v] = curvatures(curvatures(surface.gaussian_curvature[v]));
+  });
 }
 
 /* Surfaces of meshes and of flows have patches that no list says more of. */
@@ -12969,6 +13196,7 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   wsk_surface* handle = static_cast<wsk_surface*>(memory);
   handle->allocator = context.allocator();
   handle->bytes = layout.bytes;
+  *out = handle;
   wsk_surface_view& view = handle->view;
   view = {};
   view.size = sizeof view;
@@ -12976,13 +13204,16 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   view.triangle_count = static_cast<uint32_t>(surface.patch.size());
   view.patch_count = surface.counts.patches;
   view.curve_edge_count = static_cast<uint32_t>(surface.curve_edge_curve.size());
-  view.positions = write_vectors(block, layout.positions, surface.position.span(), lengths);
-  view.normals = write_vectors(block, layout.normals, surface.normal.span(), none);
-  view.constraint_normals =
-      write_vectors(block, layout.constraint, surface.constraint_normal.span(), none);
-  write_curvatures(surface, layout, curvatures, block, &view);
+  TRY(write_vectors(context, surface.position.span(), lengths, block + layout.positions,
+                    &view.positions));
+  TRY(write_vectors(context, surface.normal.span(), none, block + layout.normals, &view.normals));
+  TRY(write_vectors(context, surface.constraint_normal.span(), none, block + layout.constraint,
+                    &view.constraint_normals));
+  TRY(write_curvatures(context, surface, layout, curvatures, block, &view));
   view.vertex_curve = write_indices(block, layout.vertex_curve, surface.vertex_curve);
+  TRY(context.checkpoint());
   view.triangles = write_indices(block, layout.triangle, surface.triangle);
+  TRY(context.checkpoint());
   view.triangle_patch = write_indices(block, layout.patch, surface.patch);
   view.curve_edges = write_indices(block, layout.edges, surface.curve_edge);
   view.curve_edge_curve = write_indices(block, layout.edge_curve, surface.curve_edge_curve);
@@ -12994,10 +13225,9 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   view.crease_corner_count = static_cast<uint32_t>(surface.crease_normals.corner.size());
   view.crease_corners = write_indices(block, layout.crease_corners, surface.crease_normals.corner);
   if (view.crease_corner_count > 0) {
-    view.crease_normals =
-        write_vectors(block, layout.crease_normals, surface.crease_normals.normal.span(), none);
+    TRY(write_vectors(context, surface.crease_normals.normal.span(), none,
+                      block + layout.crease_normals, &view.crease_normals));
   }
-  *out = handle;
   return context.progress(1.0);
 }
 
@@ -17310,7 +17540,8 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   const size_t n = surface->position.size();
   TRY(context.enter(Stage::result));
   TRY(surface->normal.resize(n));
-  mesh::vertex_normals(surface->position.span(), surface->triangle.span(), surface->normal.span());
+  TRY(mesh::vertex_normals(context, surface->position.span(), surface->triangle.span(),
+                           surface->normal.span()));
   TRY(surface->mean_curvature.assign(n, 0.0));
   TRY(surface->gaussian_curvature.assign(n, 0.0));
   Array<uint8_t> on_curve(context);
@@ -17318,8 +17549,8 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
   TRY(mesh::find_crease_normals(context, surface->position.span(), surface->triangle.span(),
                                 on_curve.span(), &surface->crease_normals));
-  surface->counts.least_angle =
-      mesh::least_angle(surface->position.span(), surface->triangle.span());
+  TRY(mesh::least_angle(context, surface->position.span(), surface->triangle.span(),
+                        &surface->counts.least_angle));
   if (!measurable) return {};
   TRY(count_inverted(context, surface));
   TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
@@ -17371,7 +17602,8 @@ static Status count_opposed(Context& context, const Surface& surface, uint32_t* 
                             uint32_t* all) {
   Array<Vec3> normal(context);
   TRY(normal.resize(surface.position.size()));
-  mesh::vertex_normals(surface.position.span(), surface.triangle.span(), normal.span());
+  TRY(mesh::vertex_normals(context, surface.position.span(), surface.triangle.span(),
+                           normal.span()));
   *opposed = *all = 0;
   for (size_t v = 0; v < normal.size(); ++v) {
     const Vec3& wish = surface.constraint_normal[v];
@@ -17496,9 +17728,10 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   if (!status.ok() && status.code != Code::bad_mesh) return status;
   outcome->manifold = status.ok() && !surface->triangle.empty();
   count_flow(flow, reconstruction, settings, surface);
-  const bool measurable =
-      outcome->manifold &&
-      mesh::check_areas(surface->position.span(), surface->triangle.span()).ok();
+  const Status areas =
+      mesh::check_areas(context, surface->position.span(), surface->triangle.span());
+  if (!areas.ok() && areas.code != Code::bad_mesh) return areas;
+  const bool measurable = outcome->manifold && areas.ok();
   TRY(judge_mesh(context, settings, measurable, *surface, outcome));
   if (outcome->normals == NormalsUse::none && !settings.normal.empty()) {
     TRY(try_to_smooth(context, topology, offset.span(), settings.method, surface, outcome));
@@ -18337,120 +18570,15 @@ WirePlace nearest_on_edge(const Wires& wires, uint32_t curve, uint32_t i, const 
   return {wires.next(curve, i), 0.0};
 }
 
-/* ---- The grid ----------------------------------------------------------------------------------- */
-
-struct CellEntry {
-  uint64_t cell;
-  uint32_t edge;
-};
-
-struct EdgePair {
-  uint32_t a, b;
-};
-
-struct Grid {
-  Vec3 low;
-  double cell;
-
-  uint64_t index(double x, double origin) const {
-    const double steps = (x - origin) / cell;
-    constexpr double k_last = 2097151.0;  /* three times 21 bits */
-    return static_cast<uint64_t>(steps > 0.0 ? (steps < k_last ? steps : k_last) : 0.0);
-  }
-  static uint64_t key(uint64_t x, uint64_t y, uint64_t z) { return x << 42 | y << 21 | z; }
-};
-
-/* Puts an edge into every cell within `radius` of its pieces, none of which is longer than a cell. */
-static Status enter_edge(const Grid& grid, const Vec3& p, const Vec3& q, double radius,
-                         uint32_t edge, Array<CellEntry>* entries) {
-  const double pieces_needed = length(q - p) / grid.cell;
-  const uint32_t pieces = 1 + static_cast<uint32_t>(pieces_needed < 4e9 ? pieces_needed : 4e9);
-  for (uint32_t k = 0; k < pieces; ++k) {
-    const Vec3 a = p + (static_cast<double>(k) / pieces) * (q - p);
-    const Vec3 b = p + (static_cast<double>(k + 1) / pieces) * (q - p);
-    const auto low = [&](double u, double v, double o) {
-      return grid.index((u < v ? u : v) - radius, o);
-    };
-    const auto high = [&](double u, double v, double o) {
-      return grid.index((u > v ? u : v) + radius, o);
-    };
-    for (uint64_t x = low(a.x, b.x, grid.low.x); x <= high(a.x, b.x, grid.low.x); ++x) {
-      for (uint64_t y = low(a.y, b.y, grid.low.y); y <= high(a.y, b.y, grid.low.y); ++y) {
-        for (uint64_t z = low(a.z, b.z, grid.low.z); z <= high(a.z, b.z, grid.low.z); ++z) {
-          TRY(entries->push({Grid::key(x, y, z), edge}));
-        }
-      }
-    }
-  }
-  return {};
-}
-
 /* How far the cubic of an edge leaves its chord, about. */
 static double bulge_of_edge(const Wires& wires, uint32_t curve, uint32_t i) {
   const EdgeCubic cubic = cubic_of_edge(wires, curve, i);
   return 1.5 * length(cubic.at(0.5) - 0.5 * (cubic.from + cubic.to));
 }
 
-static Grid grid_of(const Wires& wires, const EdgeSet& edges, double reach, double bulge) {
-  Grid grid = {wires.position[0], 0.0};
-  double sum = 0.0;
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    const Vec3& p = wires.position[i];
-    Vec3& low = grid.low;
-    low = {p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z};
-    const uint32_t j = edges.next(i);
-    if (j == k_none) continue;
-    sum += length(wires.position[j] - p);
-    ++count;
-  }
-  const double mean = count > 0 ? sum / count : 0.0;
-  const double widest = reach + 2.0 * bulge;
-  grid.cell = mean > widest ? mean : widest;
-  constexpr double k_least = 1.0 / 1048576.0;  /* the extent is about one, an index has 21 bits */
-  if (!(grid.cell > k_least)) grid.cell = k_least;
-  return grid;
-}
-
-/* Pairs of edges that share a cell, each once. */
-static Status pairs_of_cells(Array<CellEntry>* entries, Array<EdgePair>* pairs) {
-  Context& context = entries->context();
-  sort(entries->span(), [](const CellEntry& x, const CellEntry& y) {
-    return x.cell != y.cell ? x.cell < y.cell : x.edge < y.edge;
-  });
-  size_t kept = 0;  /* pieces of one edge may share a cell */
-  for (const CellEntry& entry : *entries) {
-    const CellEntry* last = kept > 0 ? &(*entries)[kept - 1] : nullptr;
-    if (last != nullptr && last->cell == entry.cell && last->edge == entry.edge) continue;
-    (*entries)[kept++] = entry;
-  }
-  entries->shrink(kept);
-  for (size_t first = 0, end = 0; first < entries->size(); first = end) {
-    while (end < entries->size() && (*entries)[end].cell == (*entries)[first].cell) ++end;
-    for (size_t i = first; i < end; ++i) {
-      for (size_t k = i + 1; k < end; ++k) {
-        TRY(pairs->push({(*entries)[i].edge, (*entries)[k].edge}));
-      }
-      if (i % 256 == 255) TRY(context.checkpoint());
-    }
-  }
-  const auto less = [](const EdgePair& x, const EdgePair& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  };
-  sort(pairs->span(), less);
-  kept = 0;  /* and edges several cells */
-  for (const EdgePair& pair : *pairs) {
-    if (kept > 0 && !less((*pairs)[kept - 1], pair)) continue;
-    (*pairs)[kept++] = pair;
-  }
-  pairs->shrink(kept);
-  return {};
-}
-
-static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, double reach,
-                           const EdgePair& pair, Array<Approach>* approaches) {
+static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, double reach, uint32_t a,
+                           uint32_t b, Array<Approach>* approaches) {
   const Wires& wires = edges.wires;
-  const uint32_t a = pair.a, b = pair.b;
   if (edges.share_a_sample(a, b)) return {};
   ChordApproach chords = edges.chords(a, b);
   if (!(chords.distance <= reach + bulge[a] + bulge[b])) return {};
@@ -18466,35 +18594,61 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
   found.at_a = point_of_place(wires, edges.curve[a], found.a);
   found.at_b = point_of_place(wires, edges.curve[b], found.b);
   found.distance = length(found.at_a - found.at_b);
+  /* Drawings have less than one, with every line drawn many times a few. */
+  constexpr size_t k_most_for_a_sample = 16, k_always = 1024;
+  if (approaches->size() > k_most_for_a_sample * wires.samples() + k_always) {
+    return fail(Code::bad_argument,
+                "the curves come within the snapping tolerance of each other in too many places: "
+                "give a smaller one");
+  }
   return approaches->push(found);
+}
+
+/* Rounding must not part boxes of edges that just reach each other. */
+static Vec3 widened(const Vec3& p, double margin) {
+  constexpr double k_rounding = 1e-15;
+  const double own = (1.0 + 1e-9) * margin, sign = margin < 0.0 ? -k_rounding : k_rounding;
+  return {p.x + own + sign * std::fabs(p.x), p.y + own + sign * std::fabs(p.y),
+          p.z + own + sign * std::fabs(p.z)};
+}
+
+static Box box_of_edge(const Vec3& p, const Vec3& q, double margin) {
+  const Vec3 low = {smaller(p.x, q.x), smaller(p.y, q.y), smaller(p.z, q.z)};
+  const Vec3 high = {larger(p.x, q.x), larger(p.y, q.y), larger(p.z, q.z)};
+  return {widened(low, -margin), widened(high, margin)};
 }
 
 Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double reach,
                        Array<Approach>* approaches) {
+  constexpr size_t k_work_per_checkpoint = 4096;
   Context& context = wires.position.context();
   const EdgeSet edges = {wires, curve};
   Array<double> bulge(context);
-  Array<CellEntry> entries(context);
-  Array<EdgePair> pairs(context);
+  Array<Box> box(context);
+  Array<uint32_t> sample(context), near(context);
+  BoxTree tree(context);
   TRY(bulge.assign(wires.samples(), 0.0));
-  double greatest = 0.0;
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    if (edges.next(i) == k_none) continue;
+  TRY(box.reserve(wires.samples()));
+  TRY(sample.reserve(wires.samples()));
+  TRY(in_parts(context, wires.samples(), [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s), next = edges.next(i);
+    if (next == k_none) return;
     bulge[i] = bulge_of_edge(wires, curve[i], i);
-    greatest = bulge[i] > greatest ? bulge[i] : greatest;
-  }
-  const Grid grid = grid_of(wires, edges, reach, greatest);
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    if (edges.next(i) == k_none) continue;
-    TRY(enter_edge(grid, wires.position[i], wires.position[edges.next(i)], 0.5 * reach + bulge[i],
-                   i, &entries));
-    if (i % 4096 == 4095) TRY(context.checkpoint());
-  }
-  TRY(pairs_of_cells(&entries, &pairs));
-  entries.free();
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    TRY(compare_pair(edges, bulge.span(), reach, pairs[k], approaches));
-    if (k % 4096 == 4095) TRY(context.checkpoint());
+    const double margin = 0.5 * reach + bulge[i];
+    box.push_reserved(box_of_edge(wires.position[i], wires.position[next], margin));
+    sample.push_reserved(i);
+  }));
+  TRY(tree.build(box.span()));
+  size_t work = 0;
+  for (uint32_t e = 0; e < box.size(); ++e) {
+    TRY(tree.find(box[e], e, &near));
+    for (const uint32_t other : near) {
+      TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
+    }
+    work += 8 + near.size();
+    if (work < k_work_per_checkpoint) continue;
+    work = 0;
+    TRY(context.checkpoint());
   }
   return {};
 }
@@ -18637,22 +18791,23 @@ Status Snapper::connected(const BeadPlace& a, const BeadPlace& b, double radius,
   queue_.clear();
   TRY(relax(a.bead, a.behind, radius));
   if (a.behind > 0.0) TRY(relax(bead[a.bead].next, bead[a.bead].to_next - a.behind, radius));
-  for (size_t k = 0; k < queue_.size(); ++k) {
+  const auto reached = [&](uint32_t at, double behind) {
+    return at != k_none && stamp_[at] == now_ && best_[at] + behind <= radius;
+  };
+  const auto found = [&] {
+    return reached(b.bead, b.behind) ||
+           (b.behind > 0.0 && reached(bead[b.bead].next, bead[b.bead].to_next - b.behind));
+  };
+  *result = found() || (a.bead == b.bead && std::fabs(a.behind - b.behind) <= radius);
+  for (size_t k = 0; k < queue_.size() && !*result; ++k) {
     const uint32_t u = queue_[k], before = bead[u].previous;
     const double distance = best_[u];
     TRY(relax(bead[u].ring, distance, radius));
     if (own && beads_.curve_of(u) != curve_a && beads_.curve_of(u) != curve_b) continue;
     TRY(relax(bead[u].next, distance + bead[u].to_next, radius));
     if (before != k_none) TRY(relax(before, distance + bead[before].to_next, radius));
+    *result = found();
   }
-  const auto reached = [&](uint32_t at, double behind) {
-    return at != k_none && stamp_[at] == now_ && best_[at] + behind <= radius;
-  };
-  *result = reached(b.bead, b.behind);
-  if (b.behind > 0.0) {
-    *result = *result || reached(bead[b.bead].next, bead[b.bead].to_next - b.behind);
-  }
-  *result = *result || (a.bead == b.bead && std::fabs(a.behind - b.behind) <= radius);
   return {};
 }
 
@@ -19072,16 +19227,17 @@ Status make_network(Context& context, const network::Wires& wires,
   handle->bytes = layout.bytes;
   handle->least_fresh = numbers.least_fresh;
   handle->most_fresh = numbers.most_fresh;
+  *out = handle;
   wsk_network_view& view = handle->view;
   view = {};
   view.size = sizeof view;
   view.curve_count = wires.curves();
   view.sample_count = wires.samples();
-  write_vectors(block, layout.positions, wires.position.span(), lengths);
+  const double* positions = nullptr;  /* the curves point into them */
+  TRY(write_vectors(context, wires.position.span(), lengths, block + layout.positions, &positions));
   write_samples(wires, numbers, layout, given, block, &view);
   view.curves = write_curves(wires, layout, block);
   write_events(result, lengths, layout, block, &view);
-  *out = handle;
   return context.progress(1.0);
 }
 
@@ -22634,7 +22790,8 @@ static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
   const uint32_t n = static_cast<uint32_t>(r->position->size());
   TRY(find_corners(n, r->triangle->span(), &stars->start, &stars->corner));
   TRY(stars->normal.resize(n));
-  vertex_normals(r->position->span(), r->triangle->span(), stars->normal.span());
+  TRY(vertex_normals(r->suspect.context(), r->position->span(), r->triangle->span(),
+                     stars->normal.span()));
   for (uint32_t v = r->rim; v < n; ++v) {
     const uint32_t first = stars->start[v];
     const Span<const uint32_t> star = stars->corner.span().part(first, stars->start[v + 1] - first);
@@ -23731,11 +23888,12 @@ struct Quad {
 
 }  /* namespace */
 
-static void relax_once(const Movable& mesh, Span<Vec3> normal, Span<Pull> pull) {
-  vertex_normals(mesh.position, mesh.triangle, normal);
-  for (Pull& p : pull) p = {Vec3{}, 0.0};
-  for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
-    const uint32_t* v = &mesh.triangle[t];
+static Status relax_once(Context& context, const Movable& mesh, Span<Vec3> normal,
+                         Span<Pull> pull) {
+  TRY(vertex_normals(context, mesh.position, mesh.triangle, normal));
+  TRY(in_parts(context, pull.size(), [&](size_t v) { pull[v] = {Vec3{}, 0.0}; }));
+  TRY(in_parts(context, mesh.triangle.size() / 3, [&](size_t t) {
+    const uint32_t* v = &mesh.triangle[3 * t];
     const Vec3 &a = mesh.position[v[0]], &b = mesh.position[v[1]], &c = mesh.position[v[2]];
     const double area = length(cross(b - a, c - a));
     const Vec3 weighted = area * ((1.0 / 3.0) * (a + b + c));
@@ -23743,12 +23901,12 @@ static void relax_once(const Movable& mesh, Span<Vec3> normal, Span<Pull> pull) 
       pull[v[k]].sum += weighted;
       pull[v[k]].area += area;
     }
-  }
-  for (size_t v = 0; v < pull.size(); ++v) {
-    if (mesh.held[v] || !(pull[v].area > 0.0)) continue;
+  }));
+  return in_parts(context, pull.size(), [&](size_t v) {
+    if (mesh.held[v] || !(pull[v].area > 0.0)) return;
     const Vec3 step = (1.0 / pull[v].area) * pull[v].sum - mesh.position[v];
     mesh.position[v] += 0.5 * reject(step, normal[v]);
-  }
+  });
 }
 
 static Status relax(Context& context, const Movable& mesh) {
@@ -23757,7 +23915,7 @@ static Status relax(Context& context, const Movable& mesh) {
   TRY(normal.resize(mesh.position.size()));
   TRY(pull.resize(mesh.position.size()));
   for (int sweep = 0; sweep < k_relax_sweeps; ++sweep) {
-    relax_once(mesh, normal.span(), pull.span());
+    TRY(relax_once(context, mesh, normal.span(), pull.span()));
     TRY(context.checkpoint());
   }
   return {};
@@ -23892,48 +24050,53 @@ static void flip_at_fold(const Movable& mesh, Span<uint32_t> twins, uint32_t h) 
 }
 
 /* Marks the free vertices round the folds, and those `rings` further out in the same patch. */
-static void mark_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds,
-                       uint32_t rings, Span<uint8_t> marked) {
+static Status mark_folds(Context& context, const Movable& mesh, Span<const uint32_t> twins,
+                         Span<uint32_t> folds, uint32_t rings, Span<uint8_t> marked) {
   for (uint8_t& m : marked) m = 0;
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (!is_fold(mesh, twins, h)) continue;
-    for (uint32_t k = 0; k < 3; ++k) marked[mesh.triangle[h / 3 * 3 + k]] = 1;
-  }
+  TRY(in_parts(context, twins.size(), [&](size_t h) {
+    if (!is_fold(mesh, twins, static_cast<uint32_t>(h))) return;
+    for (size_t k = 0; k < 3; ++k) marked[mesh.triangle[h / 3 * 3 + k]] = 1;
+  }));
   for (uint32_t ring = 1; ring <= rings; ++ring) {
-    for (size_t h = 0; h < mesh.triangle.size(); ++h) {
-      if (folds[mesh.patch[h / 3]] == 0 || marked[mesh.triangle[h]] != ring) continue;
+    TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
+      if (folds[mesh.patch[h / 3]] == 0 || marked[mesh.triangle[h]] != ring) return;
       for (size_t k = 0; k < 3; ++k) {
         uint8_t& m = marked[mesh.triangle[h / 3 * 3 + k]];
         if (m == 0) m = static_cast<uint8_t>(ring + 1);
       }
-    }
+    }));
   }
+  return {};
 }
 
-static void smooth_marked(const Movable& mesh, Span<const uint8_t> marked, Span<Pull> pull) {
-  for (Pull& p : pull) p = {Vec3{}, 0.0};
-  for (uint32_t h = 0; h < mesh.triangle.size(); ++h) {
+static Status smooth_marked(Context& context, const Movable& mesh, Span<const uint8_t> marked,
+                            Span<Pull> pull) {
+  TRY(in_parts(context, pull.size(), [&](size_t v) { pull[v] = {Vec3{}, 0.0}; }));
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
     /* A free vertex has a triangle on each side of its edges, so this meets each neighbour once. */
-    const uint32_t a = mesh.triangle[h], b = mesh.triangle[next_half_edge(h)];
+    const uint32_t a = mesh.triangle[h];
+    const uint32_t b = mesh.triangle[next_half_edge(static_cast<uint32_t>(h))];
     pull[a].sum += mesh.position[b];
     pull[a].area += 1.0;
-  }
-  for (size_t v = 0; v < pull.size(); ++v) {
-    if (!marked[v] || mesh.held[v]) continue;
+  }));
+  return in_parts(context, pull.size(), [&](size_t v) {
+    if (!marked[v] || mesh.held[v]) return;
     const Vec3 mean = (1.0 / pull[v].area) * pull[v].sum;
     mesh.position[v] += 0.5 * (mean - mesh.position[v]);
-  }
+  });
 }
 
-static uint32_t count_folds(const Movable& mesh, Span<const uint32_t> twins, Span<uint32_t> folds) {
-  uint32_t all = 0;
+/* The folds of each patch, and `all` of them. */
+static Status count_folds(Context& context, const Movable& mesh, Span<const uint32_t> twins,
+                          Span<uint32_t> folds, uint32_t* all) {
+  *all = 0;
   for (uint32_t& f : folds) f = 0;
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] < h || !is_fold(mesh, twins, h)) continue;
+  return in_parts(context, twins.size(), [&](size_t i) {
+    const uint32_t h = static_cast<uint32_t>(i);
+    if (twins[h] < h || !is_fold(mesh, twins, h)) return;
     ++folds[mesh.patch[h / 3]];
-    ++all;
-  }
-  return all;
+    ++*all;
+  });
 }
 
 Status unfold(Context& context, const Movable& mesh, Span<uint32_t> folds) {
@@ -23941,20 +24104,23 @@ Status unfold(Context& context, const Movable& mesh, Span<uint32_t> folds) {
   Array<uint8_t> marked(context);
   Array<Pull> pull(context);
   TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
-  if (count_folds(mesh, twins.span(), folds) == 0) return {};
+  uint32_t left = 0;
+  TRY(count_folds(context, mesh, twins.span(), folds, &left));
+  if (left == 0) return {};
   TRY(marked.resize(mesh.position.size()));
   TRY(pull.resize(mesh.position.size()));
   for (uint32_t sweep = 0; sweep < k_unfold_sweeps; ++sweep) {
-    for (uint32_t h = 0; h < twins.size(); ++h) {
+    TRY(in_parts(context, twins.size(), [&](size_t i) {
+      const uint32_t h = static_cast<uint32_t>(i);
       if (twins[h] > h && is_fold(mesh, twins.span(), h)) flip_at_fold(mesh, twins.span(), h);
-    }
-    if (count_folds(mesh, twins.span(), folds) == 0) break;
-    mark_folds(mesh, twins.span(), folds, sweep / k_sweeps_a_ring, marked.span());
-    smooth_marked(mesh, marked.span(), pull.span());
+    }));
+    TRY(count_folds(context, mesh, twins.span(), folds, &left));
+    if (left == 0) break;
+    TRY(mark_folds(context, mesh, twins.span(), folds, sweep / k_sweeps_a_ring, marked.span()));
+    TRY(smooth_marked(context, mesh, marked.span(), pull.span()));
     TRY(context.checkpoint());
   }
-  count_folds(mesh, twins.span(), folds);
-  return {};
+  return count_folds(context, mesh, twins.span(), folds, &left);
 }
 
 Status care(Context& context, const Movable& mesh, uint32_t* flips) {
@@ -23964,11 +24130,12 @@ Status care(Context& context, const Movable& mesh, uint32_t* flips) {
   TRY(find_twins(static_cast<uint32_t>(mesh.position.size()), mesh.triangle, &twins));
   for (int sweep = 0; sweep < k_flip_sweeps; ++sweep) {
     const uint32_t before = *flips;
-    for (uint32_t h = 0; h < twins.size(); ++h) {
-      if (!wants_flip(mesh, twins.span(), h)) continue;
+    TRY(in_parts(context, twins.size(), [&](size_t i) {
+      const uint32_t h = static_cast<uint32_t>(i);
+      if (!wants_flip(mesh, twins.span(), h)) return;
       flip(mesh.triangle, twins.span(), h);
       ++*flips;
-    }
+    }));
     TRY(context.checkpoint());
     if (*flips == before) break;
   }
@@ -23981,11 +24148,11 @@ Status care(Context& context, const Movable& mesh, uint32_t* flips) {
 /* ======== begin src/mesh/curvature.cpp ======== */
 namespace wireskin::mesh {
 
-void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
-                    Span<Vec3> normals) {
+Status vertex_normals(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles,
+                      Span<Vec3> normals) {
   for (Vec3& n : normals) n = Vec3{};
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
     /* Edge k runs from corner k to the next one. */
     const Vec3 edge[3] = {positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[1]],
                           positions[v[0]] - positions[v[2]]};
@@ -23995,8 +24162,8 @@ void vertex_normals(Span<const Vec3> positions, Span<const uint32_t> triangles,
       const double squares = square[k] * square[last];
       if (squares > 0.0) normals[v[k]] += (1.0 / squares) * cross(edge[k], -edge[last]);
     }
-  }
-  for (Vec3& n : normals) n = unit(n);
+  }));
+  return in_parts(context, normals.size(), [&](size_t v) { normals[v] = unit(normals[v]); });
 }
 
 namespace {
@@ -24011,14 +24178,14 @@ struct Mean {
 
 /* One pass over the edges: vertices without a value take the mean of those neighbours that have */
 /* one. */
-static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> known,
-                                 Span<Mean> mean, Span<double> values) {
+static Status fill_from_neighbours(Context& context, Span<const uint32_t> triangles,
+                                   Span<uint8_t> known, Span<Mean> mean, Span<double> values) {
   for (size_t v = 0; v < values.size(); ++v) {
     if (!known[v]) mean[v] = {0.0, 0};
   }
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
-    if (known[v[0]] == known[v[1]] && known[v[1]] == known[v[2]]) continue;  /* nearly all */
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
+    if (known[v[0]] == known[v[1]] && known[v[1]] == known[v[2]]) return;  /* nearly all */
     for (int k = 0; k < 3; ++k) {
       const uint32_t a = v[k], b = v[k == 2 ? 0 : k + 1];
       if (known[a] == known[b]) continue;
@@ -24026,12 +24193,13 @@ static void fill_from_neighbours(Span<const uint32_t> triangles, Span<uint8_t> k
       mean[to].sum += values[from];
       ++mean[to].count;
     }
-  }
+  }));
   for (size_t v = 0; v < values.size(); ++v) {
     if (known[v] || mean[v].count == 0) continue;
     values[v] = mean[v].sum / static_cast<double>(mean[v].count);
     known[v] = 1;
   }
+  return {};
 }
 
 Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const uint8_t> on_border,
@@ -24044,9 +24212,8 @@ Status fill_border(Context& context, Span<const uint32_t> triangles, Span<const 
   TRY(known.resize(values.size()));
   TRY(mean.resize(values.size()));
   for (size_t v = 0; v < values.size(); ++v) known[v] = on_border[v] == 0;
-  fill_from_neighbours(triangles, known.span(), mean.span(), values);
-  fill_from_neighbours(triangles, known.span(), mean.span(), values);
-  return {};
+  TRY(fill_from_neighbours(context, triangles, known.span(), mean.span(), values));
+  return fill_from_neighbours(context, triangles, known.span(), mean.span(), values);
 }
 
 Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
@@ -24057,8 +24224,8 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
   Array<double> area(context);
   TRY(curvature->assign(n, 0.0));
   TRY(area.assign(n, 0.0));
-  for (uint32_t t = 0; t < triangles.size(); t += 3) {
-    const uint32_t* v = &triangles[t];
+  TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
+    const uint32_t* v = &triangles[3 * t];
     const Vec3 normal = unit(normals[v[0]] + normals[v[1]] + normals[v[2]]);
     const Vec3 cross_edges =
         cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]);
@@ -24068,11 +24235,11 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
       (*curvature)[v[k]] += dot(cross(normal, edge), normals[v[k]]);
       area[v[k]] += third;
     }
-  }
-  for (size_t v = 0; v < n; ++v) {
+  }));
+  TRY(in_parts(context, n, [&](size_t v) {
     const bool known = !on_border[v] && area[v] > 0.0;
     (*curvature)[v] = known ? (*curvature)[v] / (4.0 * area[v]) : 0.0;
-  }
+  }));
   return fill_border(context, triangles, on_border, curvature->span());
 }
 
@@ -24348,12 +24515,12 @@ static Status load_lists(const Csc& lower, QuotientGraph* g) {
       ++g->length[lower.row[k]];
     }
   }
-  for (uint32_t i = 0; i < g->n; ++i) {
+  TRY(in_parts(context, g->n, [&](size_t i) {
     g->start[i] = g->list_end;
     g->list_end += g->length[i];
     g->length[i] = 0;
-    g->member_last[i] = i;
-  }
+    g->member_last[i] = static_cast<uint32_t>(i);
+  }));
   for (uint32_t j = 0; j < g->n; ++j) {
     TRY(checkpoint_at_column(context, j));
     for (uint32_t k = lower.start[j] + 1; k < lower.start[j + 1]; ++k) {
@@ -24419,14 +24586,15 @@ static uint32_t take_least_degree(QuotientGraph* g) {
 
 /* Moves the live lists to the front. Each list's first entry is parked in `start` and replaced by */
 /* the complement of its owner, which no index can be, so that one scan finds the lists. */
-static void compress_lists(QuotientGraph* g) {
-  for (uint32_t i = 0; i < g->n; ++i) {
-    if (g->length[i] == 0) continue;
+static Status compress_lists(QuotientGraph* g) {
+  Context& context = g->list.context();
+  TRY(in_parts(context, g->n, [&](size_t i) {
+    if (g->length[i] == 0) return;
     const uint32_t first = g->list[g->start[i]];
-    g->list[g->start[i]] = ~i;
+    g->list[g->start[i]] = ~static_cast<uint32_t>(i);
     g->start[i] = first;
-  }
-  uint32_t write = 0;
+  }));
+  uint32_t write = 0, lists = 0;
   for (uint32_t read = 0; read < g->list_end;) {
     const uint32_t owner = ~g->list[read++];
     if (owner >= g->n) continue;
@@ -24434,9 +24602,11 @@ static void compress_lists(QuotientGraph* g) {
     g->start[owner] = write;
     g->list[write++] = first;
     for (uint32_t k = 1; k < g->length[owner]; ++k) g->list[write++] = g->list[read++];
+    TRY(checkpoint_at_column(context, lists++));
   }
   g->work += g->list_end;
   g->list_end = write;
+  return {};
 }
 
 static void append_members(QuotientGraph* g, uint32_t to, uint32_t from) {
@@ -24472,9 +24642,9 @@ static uint32_t bound_element(const QuotientGraph& g, uint32_t p) {
 
 /* Turns the variable `p` into an element: the union of its variables and of the variables of its */
 /* elements, which are absorbed. Without elements it shrinks in place. */
-static void form_element(QuotientGraph* g, uint32_t p) {
+static Status form_element(QuotientGraph* g, uint32_t p) {
   if (g->elements[p] != 0 && bound_element(*g, p) > g->list.size() - g->list_end) {
-    compress_lists(g);
+    TRY(compress_lists(g));
   }
   ++g->step;
   g->seen[p] = g->step;
@@ -24493,6 +24663,7 @@ static void form_element(QuotientGraph* g, uint32_t p) {
   g->start[p] = to;
   g->length[p] = write - to;
   g->elements[p] = 0;
+  return {};
 }
 
 /* For every element e next to the new element `p`: the weight of e's variables outside p. */
@@ -24647,31 +24818,32 @@ static void close_element(QuotientGraph* g, uint32_t p) {
   g->length[p] = write - g->start[p];
 }
 
-static void eliminate(QuotientGraph* g, uint32_t p) {
+static Status eliminate(QuotientGraph* g, uint32_t p) {
   g->remaining -= g->weight[p];
   g->weight[p] = 0;
   g->pivots.push_reserved(p);
-  form_element(g, p);
+  TRY(form_element(g, p));
   weigh_outside(g, p);
   for (uint32_t k = g->start[p]; k < g->start[p] + g->length[p]; ++k) {
     update_variable(g, p, g->list[k]);
   }
   merge_indistinguishable(g, p);
   close_element(g, p);
+  return {};
 }
 
 /* Each pivot, then the columns that went with it; the rows set aside come last. */
-static void write_order(QuotientGraph* g, Array<uint32_t>* order) {
+static Status write_order(QuotientGraph* g, Array<uint32_t>* order) {
   for (uint32_t& m : g->mark) m = 0;
-  for (const uint32_t p : g->pivots) {
-    for (uint32_t i = p; i != k_none; i = g->member_next[i]) {
+  TRY(in_parts(order->context(), g->pivots.size(), [&](size_t k) {
+    for (uint32_t i = g->pivots[k]; i != k_none; i = g->member_next[i]) {
       g->mark[i] = 1;
       order->push_reserved(i);
     }
-  }
-  for (uint32_t i = 0; i < g->n; ++i) {
-    if (g->mark[i] == 0) order->push_reserved(i);
-  }
+  }));
+  return in_parts(order->context(), g->n, [&](size_t i) {
+    if (g->mark[i] == 0) order->push_reserved(static_cast<uint32_t>(i));
+  });
 }
 
 Status minimum_degree(const Csc& lower, Array<uint32_t>* order) {
@@ -24686,13 +24858,12 @@ Status minimum_degree(const Csc& lower, Array<uint32_t>* order) {
   set_dense_aside(&graph);
   TRY(insert_all(&graph));
   while (graph.remaining > 0) {
-    eliminate(&graph, take_least_degree(&graph));
+    TRY(eliminate(&graph, take_least_degree(&graph)));
     if (graph.work < k_work_per_checkpoint) continue;
     graph.work = 0;
     TRY(context.checkpoint());
   }
-  write_order(&graph, order);
-  return {};
+  return write_order(&graph, order);
 }
 
 }  /* namespace wireskin::sparse */
@@ -24896,6 +25067,7 @@ static bool is_inverted(const FacedMesh& mesh, Span<const uint32_t> start,
 Status find_inverted(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                      Span<const uint32_t> patch, Inverted* inverted) {
   constexpr size_t k_work_per_checkpoint = 1u << 16;
+  constexpr uint32_t k_triangles_per_checkpoint = 1u << 15;
   const FacedMesh mesh = {position, triangle, patch};
   const uint32_t vertices = static_cast<uint32_t>(position.size());
   Array<uint32_t> twins(context), start(context), corner(context), candidate(context);
@@ -24903,6 +25075,7 @@ Status find_inverted(Context& context, Span<const Vec3> position, Span<const uin
   TRY(find_twins(vertices, triangle, &twins));
   for (uint32_t t = 0; t < triangle.size() / 3; ++t) {
     if (faces_a_neighbour(mesh, twins.span(), t)) TRY(candidate.push(t));
+    if (t % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
   }
   if (candidate.empty()) return {};
   TRY(find_corners(vertices, triangle, &start, &corner));
@@ -24983,13 +25156,14 @@ struct Bending {
 static Status take_mesh(Span<const Vec3> position, Span<const uint32_t> triangle, uint32_t held,
                         Bending* bending) {
   const uint32_t n = static_cast<uint32_t>(position.size());
-  Array<TriangleShape> shape(bending->weight.context());
+  Context& context = bending->weight.context();
+  Array<TriangleShape> shape(context);
   TRY(triangle_shapes(position, triangle, &shape));
   TRY(cotangent_laplacian(n, triangle, shape.span(), &bending->laplacian));
   TRY(bending->weight.resize(n));
   TRY(bending->unknown.resize(n));
   TRY(bending->target.assign(n, Vec3{}));
-  mixed_voronoi_areas(triangle, shape.span(), bending->weight.span());
+  TRY(mixed_voronoi_areas(context, triangle, shape.span(), bending->weight.span()));
   for (uint32_t v = 0; v < n; ++v) bending->unknown[v] = v < held ? k_none : v - held;
   return {};
 }
@@ -25038,7 +25212,7 @@ Status raise_dome(Context& context, const Loops& loops, uint32_t held,
   Array<Vec3> normal(context);
   TRY(take_mesh(position, triangle, held, &bending));
   TRY(normal.resize(n));
-  vertex_normals(position, triangle, normal.span());
+  TRY(vertex_normals(context, position, triangle, normal.span()));
   const double curvature = normal_curvature(loops) * (loops.count() == 1 ? 1.0 : 0.5);
   for (uint32_t v = 0; v < n; ++v) {
     normal[v] = -2.0 * curvature * bending.weight[v] * (v < rim ? loops.normal[v] : normal[v]);
@@ -25095,7 +25269,7 @@ struct Factors {
 
 /* Columns may be long, so the multiplications are counted instead of the columns. */
 static Status pause_for_checkpoint(Context& context, size_t* work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 19;
+  constexpr size_t k_work_per_checkpoint = size_t{1} << 18;
   if (*work < k_work_per_checkpoint) return {};
   *work = 0;
   return context.checkpoint();
@@ -25136,6 +25310,7 @@ static Status estimate_entries(const Factors& factors, Accumulator* gathered, si
   size_t total = 0;
   uint32_t j = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
+    TRY(checkpoint_at_column(gathered->mark.context(), column));
     if (factors.unknown[column] == k_none) continue;
     if (j % k_step == 0) {
       gather_column(factors, column, j, gathered, work);
@@ -25500,7 +25675,10 @@ static Status sort_by_digits(Array<OrderKey>* keys, int bits) {
     for (uint32_t& start : starts) start = 0;
     for (const OrderKey& key : *keys) ++starts[digit(key)];
     starts_from_counts(starts.span());
-    for (const OrderKey& key : *keys) other[starts[digit(key)]++] = key;
+    TRY(in_parts(keys->context(), keys->size(), [&](size_t i) {
+      const OrderKey& key = (*keys)[i];
+      other[starts[digit(key)]++] = key;
+    }));
     Array<OrderKey> sorted = static_cast<Array<OrderKey>&&>(other);
     other = static_cast<Array<OrderKey>&&>(*keys);
     *keys = static_cast<Array<OrderKey>&&>(sorted);
@@ -25529,12 +25707,13 @@ static Status sort_by_cells(Span<const Vec2> points, int hilbert_bits, uint64_t 
   const double extent = larger(high.x - low.x, high.y - low.y);
   const double cells = static_cast<double>((1u << hilbert_bits) - 1);
   const double step = extent > 0.0 ? cells / extent : 0.0;
-  for (uint32_t i = 0; i < points.size(); ++i) {
+  TRY(in_parts(keys->context(), points.size(), [&](size_t p) {
+    const uint32_t i = static_cast<uint32_t>(p);
     const Vec2 cell = step * (points[i] - low);
     const uint64_t place =
         hilbert_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y), hilbert_bits);
     (*keys)[i] = {insertion_round(i, last_round) << (2 * hilbert_bits) | place, i};
-  }
+  }));
   int bits = 2 * hilbert_bits;
   for (uint64_t round = last_round; round > 0; round >>= 1) ++bits;
   return sort_by_digits(keys, bits);
@@ -25558,8 +25737,7 @@ Status insertion_order(Span<const Vec2> points, Array<uint32_t>* order) {
   if (longest_run(keys.span()) > k_crowd) {
     TRY(sort_by_cells(points, k_most_hilbert_bits, last_round, &keys));
   }
-  for (size_t i = 0; i < count; ++i) (*order)[i] = keys[i].index;
-  return {};
+  return in_parts(order->context(), count, [&](size_t i) { (*order)[i] = keys[i].index; });
 }
 
 }  /* namespace wireskin::planar */
@@ -26087,7 +26265,7 @@ static Status insert_points(const Region& region, Span<const Vec2> points, Trian
   TRY(point_of.assign(count, k_none));  /* of each vertex, the least of its points */
   TRY(begin_box(points, t));
   for (uint32_t i = 0; i < count; ++i) {
-    if (i % 16384 == 0) TRY(t->points.context().checkpoint());
+    if (i % 4096 == 0) TRY(t->points.context().checkpoint());
     uint32_t vertex = k_none;
     TRY(insert_or_find(t, points[order[i]], &vertex));
     uint32_t* least = &point_of[vertex - k_box_corners];
@@ -26258,6 +26436,141 @@ Status triangulate_region(const Region& region, Triangulation* t, Array<uint32_t
 
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/region.cpp ======== */
+
+/* ======== begin src/network/box_tree.cpp ======== */
+namespace wireskin::network {
+
+static constexpr uint32_t k_boxes_of_a_leaf = 8;
+
+namespace {
+
+struct TreeRange {
+  uint32_t node, first, count;
+
+  bool is_leaf() const { return count <= k_boxes_of_a_leaf; }
+  TreeRange lower() const { return {2 * node + 1, first, count / 2}; }
+  TreeRange upper() const { return {2 * node + 2, first + count / 2, count - count / 2}; }
+};
+
+/* Ranges to come: one at most for each level, and its sibling. */
+struct RangeStack {
+  TreeRange range[64];
+  uint32_t size = 0;
+
+  void push(const TreeRange& r) { range[size++] = r; }
+  TreeRange pop() { return range[--size]; }
+};
+
+}  /* namespace */
+
+static bool boxes_meet(const Box& a, const Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+static Vec3 twice_centre(const Box& box) {
+  return box.low + box.high;
+}
+
+static double along(const Vec3& p, int axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+static void extend(const Box& more, Box* box) {
+  const Vec3 &low = more.low, &high = more.high;
+  box->low = {smaller(box->low.x, low.x), smaller(box->low.y, low.y), smaller(box->low.z, low.z)};
+  box->high = {larger(box->high.x, high.x), larger(box->high.y, high.y),
+               larger(box->high.z, high.z)};
+}
+
+Box BoxTree::bound(uint32_t first, uint32_t count) const {
+  Box box = boxes_[order_[first]];
+  for (uint32_t i = 1; i < count; ++i) extend(boxes_[order_[first + i]], &box);
+  return box;
+}
+
+/* Hoare's selection (C. A. R. Hoare, "Algorithm 65: Find", 1961) of the median in the axis of the */
+/* greatest spread; equal places by index. */
+void BoxTree::halve(uint32_t first, uint32_t count) {
+  Vec3 low = twice_centre(boxes_[order_[first]]), high = low;
+  for (uint32_t i = first; i < first + count; ++i) {
+    const Vec3 c = twice_centre(boxes_[order_[i]]);
+    low = {smaller(low.x, c.x), smaller(low.y, c.y), smaller(low.z, c.z)};
+    high = {larger(high.x, c.x), larger(high.y, c.y), larger(high.z, c.z)};
+  }
+  const Vec3 spread = high - low;
+  const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
+  const auto before = [&](uint32_t a, uint32_t b) {
+    const double x = along(twice_centre(boxes_[a]), axis), y = along(twice_centre(boxes_[b]), axis);
+    return x != y ? x < y : a < b;
+  };
+  int64_t from = first, to = int64_t{first} + count - 1;
+  const int64_t median = first + count / 2;
+  while (from < to) {
+    const uint32_t pivot = order_[static_cast<size_t>(from + (to - from) / 2)];
+    int64_t i = from, j = to;
+    while (i <= j) {
+      while (before(order_[static_cast<size_t>(i)], pivot)) ++i;
+      while (before(pivot, order_[static_cast<size_t>(j)])) --j;
+      if (i > j) break;
+      const uint32_t other = order_[static_cast<size_t>(i)];
+      order_[static_cast<size_t>(i++)] = order_[static_cast<size_t>(j)];
+      order_[static_cast<size_t>(j--)] = other;
+    }
+    if (j < median) from = i;
+    if (median < i) to = j;
+  }
+}
+
+Status BoxTree::build(Span<const Box> boxes) {
+  boxes_ = boxes;
+  const uint32_t count = static_cast<uint32_t>(boxes.size());
+  size_t nodes = 1;
+  for (uint32_t rest = count; rest > k_boxes_of_a_leaf; rest -= rest / 2) nodes = 2 * nodes + 1;
+  TRY(order_.resize(count));
+  TRY(node_.resize(nodes));
+  if (count == 0) return {};
+  for (uint32_t i = 0; i < count; ++i) order_[i] = i;
+  RangeStack todo;
+  todo.push({0, 0, count});
+  size_t work = 0;
+  while (todo.size > 0) {
+    const TreeRange range = todo.pop();
+    node_[range.node] = bound(range.first, range.count);
+    if (range.is_leaf()) continue;
+    halve(range.first, range.count);
+    todo.push(range.upper());
+    todo.push(range.lower());
+    if ((work += range.count) < 65536) continue;
+    work = 0;
+    TRY(order_.context().checkpoint());
+  }
+  return {};
+}
+
+Status BoxTree::find(const Box& box, uint32_t after, Array<uint32_t>* found) const {
+  found->clear();
+  RangeStack todo;
+  todo.push({0, 0, static_cast<uint32_t>(order_.size())});
+  while (todo.size > 0) {
+    const TreeRange range = todo.pop();
+    if (range.count == 0 || !boxes_meet(box, node_[range.node])) continue;
+    if (!range.is_leaf()) {
+      todo.push(range.upper());
+      todo.push(range.lower());
+      continue;
+    }
+    for (uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const uint32_t other = order_[i];
+      if (other > after && boxes_meet(box, boxes_[other])) TRY(found->push(other));
+    }
+  }
+  sort(found->span(), [](uint32_t a, uint32_t b) { return a < b; });
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/box_tree.cpp ======== */
 
 /* ======== begin src/network/beads.cpp ======== */
 namespace wireskin::network {
@@ -27555,6 +27868,8 @@ Status linking_number(const Border& border, int32_t* number) {
 /* ======== begin src/network/patch_mesh.cpp ======== */
 namespace wireskin::network {
 
+static constexpr size_t k_triangles_per_checkpoint = 8192;
+
 namespace {
 
 /* An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a */
@@ -27714,12 +28029,17 @@ static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
   return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
 }
 
-/* Room for `more` elements; grows as push() does. */
+/* Room for `more` elements; grows as push() does, but what is moved may be long. */
 template <typename T>
 static Status reserve_more(Array<T>* array, size_t more) {
   const size_t room = array->capacity_bytes() / sizeof(T), needed = array->size() + more;
   if (needed <= room) return {};
-  return array->reserve(needed < room + room / 2 ? room + room / 2 : needed);
+  Array<T> grown(array->context());
+  TRY(grown.reserve(needed < room + room / 2 ? room + room / 2 : needed));
+  TRY(in_parts(array->context(), array->size(),
+               [&](size_t i) { grown.push_reserved((*array)[i]); }));
+  *array = static_cast<Array<T>&&>(grown);
+  return {};
 }
 
 /* Notes the chords of triangle `t`, whose vertices among the patch's are `corner`, and its corners */
@@ -27761,11 +28081,13 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
     mesh->shape.push_reserved(mesh::triangle_shape(
         scratch.place[corner[0]], scratch.place[corner[1]], scratch.place[corner[2]]));
     TRY(note_chords(scratch, corner, static_cast<uint32_t>(first + t), patch, builder));
+    if (t % k_triangles_per_checkpoint == k_triangles_per_checkpoint - 1)
+      TRY(mesh->patch.context().checkpoint());
   }
-  for (const Vec3& p : scratch.inner) {
-    mesh->start.push_reserved(p);
+  TRY(in_parts(mesh->patch.context(), scratch.inner.size(), [&](size_t i) {
+    mesh->start.push_reserved(scratch.inner[i]);
     mesh->placed.push_reserved(scratch.spatial.raised);
-  }
+  }));
   const uint64_t vertices = uint64_t{mesh->vertices} + scratch.inner.size();
   if (vertices > 0x7fffffff || mesh->triangle.size() > 0x7fffffff) {
     return fail(Code::too_large, "the spacing is too small for the network");
@@ -27856,11 +28178,10 @@ static Status mesh_in_plane(const Plane& plane, double spacing, double least_fac
   const Array<Vec2>& points = scratch->planar.points;
   TRY(scratch->place.resize(points.size()));
   TRY(scratch->inner.resize(points.size() - n));
-  for (size_t i = 0; i < points.size(); ++i) {
+  return in_parts(scratch->place.context(), points.size(), [&](size_t i) {
     scratch->place[i] = {points[i].x, points[i].y, 0.0};
     if (i >= n) scratch->inner[i - n] = plane.lift(points[i]);
-  }
-  return {};
+  });
 }
 
 /* Lets the mesh in space pass through the curves and points inside the patch. */
@@ -27940,6 +28261,9 @@ static Status check_areas(const PatchScratch& scratch, Span<const uint32_t> tria
     const double longest2 = larger(dot(a, a), larger(dot(b, b), dot(c, c)));
     if (!(length(cross(a, b)) > k_least_area * longest2)) {
       return fail(Code::patch_folded, "the border of the patch encloses nothing");
+    }
+    if (t / 3 % k_triangles_per_checkpoint == k_triangles_per_checkpoint - 1) {
+      TRY(scratch.place.context().checkpoint());
     }
   }
   return {};
@@ -28221,13 +28545,12 @@ Status cut_along_creases(const Network& network, const CurveVertices& vertices,
   return creased->on_border.copy(topology.on_border.span());
 }
 
-void merge_creases(const CreasedMesh& creased, Span<Vec3> position, Span<uint32_t> triangle) {
-  for (size_t c = 0; c < creased.position.size(); ++c) {
-    position[creased.cut.origin[c]] = creased.position[c];
-  }
-  for (size_t h = 0; h < triangle.size(); ++h) {
-    triangle[h] = creased.cut.origin[creased.cut.triangle[h]];
-  }
+Status merge_creases(Context& context, const CreasedMesh& creased, Span<Vec3> position,
+                     Span<uint32_t> triangle) {
+  TRY(in_parts(context, creased.position.size(),
+               [&](size_t c) { position[creased.cut.origin[c]] = creased.position[c]; }));
+  return in_parts(context, triangle.size(),
+                  [&](size_t h) { triangle[h] = creased.cut.origin[creased.cut.triangle[h]]; });
 }
 
 Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Vec3> given_normal,
@@ -28238,32 +28561,32 @@ Status measure_sides(Context& context, const CreasedMesh& creased, Span<const Ve
   TRY(normal.resize(copies));
   TRY(count.assign(n, 0.0));
   const Span<const uint32_t> triangle = creased.cut.triangle.span();
-  mesh::vertex_normals(creased.position.span(), triangle, normal.span());
+  TRY(mesh::vertex_normals(context, creased.position.span(), triangle, normal.span()));
   TRY(mesh::mean_curvature(creased.position.span(), normal.span(), triangle,
                            creased.on_border.span(), &curvature));
   TRY(given.assign(copies, Vec3{}));
-  for (size_t v = 0; v < n; ++v) {
+  TRY(in_parts(context, n, [&](size_t v) {
     measures.normal[v] = measures.constraint_normal[v] = Vec3{};
     measures.mean_curvature[v] = 0.0;
-  }
-  for (size_t c = 0; c < copies; ++c) {
+  }));
+  TRY(in_parts(context, copies, [&](size_t c) {
     const uint32_t v = creased.cut.origin[c];
     measures.normal[v] += normal[c];
     measures.mean_curvature[v] += curvature[c];
     if (creased.held[c] && !creased.bare[c]) given[c] = given_normal[c];
     measures.constraint_normal[v] += given[c];
     count[v] += 1.0;
-  }
-  for (size_t v = 0; v < n; ++v) {
+  }));
+  TRY(in_parts(context, n, [&](size_t v) {
     /* The sides of a knife's edge cancel out: then the first copy's normal stands for both. */
     const bool cancels = measures.normal[v] == Vec3{};
     measures.normal[v] = unit(cancels ? normal[v] : measures.normal[v]);
     measures.mean_curvature[v] /= count[v];
     measures.constraint_normal[v] = unit(measures.constraint_normal[v]);
-  }
+  }));
   TRY(mesh::corner_normals(creased.cut, static_cast<uint32_t>(n), normal.span(),
                            measures.crease_normals));
-  *measures.normal_deviation = mesh::deviation(normal.span(), given.span());
+  TRY(mesh::normal_deviation(context, normal.span(), given.span(), measures.normal_deviation));
   return mesh::dihedral_angles(context, creased.position.span(), triangle, patch,
                                creased.held.span(), true, measures.dihedral);
 }
@@ -32012,6 +32335,7 @@ static Status survey(const Triangulation& t, double spacing, Array<double>* size
   TRY(sizes->assign(count, spacing));
   TRY(obstacles->reserve(count));
   for (uint32_t v = k_box_corners; v < count; ++v) {
+    if (v % 4096 == 0) TRY(sizes->context().checkpoint());
     if (t.leaving[v] != k_none) TRY(survey_star(t, v, spacing, &(*sizes)[v], obstacles));
   }
   return {};
@@ -32027,7 +32351,7 @@ static Status insert_lattice(Span<const Vec2> lattice, double spacing, Triangula
   TRY(t->leaving.reserve(t->points.size() + lattice.size()));
   TRY(t->triangles.reserve(t->triangles.size() + 2 * lattice.size()));
   for (size_t i = 0; i < lattice.size(); ++i) {
-    if (i % 16384 == 0) TRY(t->points.context().checkpoint());
+    if (i % 4096 == 0) TRY(t->points.context().checkpoint());
     const Vec2 p = lattice[order[i]];
     const Location location = locate(t, p, t->hint, false);
     if (location.where != Where::inside && location.where != Where::on_edge) continue;
@@ -32058,18 +32382,20 @@ static Status fill_inside(const Region& region, double spacing, Triangulation* t
 }
 
 static Status copy_result(const Triangulation& t, Span<const Vec2> given, PolygonMesh* mesh) {
+  Context& context = mesh->points.context();
   size_t count = 0;
-  for (const Triangle& triangle : t.triangles) count += (triangle.flags & k_outside) == 0 ? 1u : 0u;
+  TRY(in_parts(context, t.triangles.size(),
+               [&](size_t i) { count += (t.triangles[i].flags & k_outside) == 0 ? 1u : 0u; }));
   TRY(mesh->points.resize(t.points.size() - k_box_corners));
   TRY(mesh->triangles.reserve(3 * count));
-  for (size_t i = 0; i < mesh->points.size(); ++i) {
+  TRY(in_parts(context, mesh->points.size(), [&](size_t i) {
     mesh->points[i] = i < given.size() ? given[i] : t.points[i + k_box_corners];
-  }
-  for (const Triangle& triangle : t.triangles) {
-    if ((triangle.flags & k_outside) != 0) continue;
+  }));
+  return in_parts(context, t.triangles.size(), [&](size_t i) {
+    const Triangle& triangle = t.triangles[i];
+    if ((triangle.flags & k_outside) != 0) return;
     for (const uint32_t v : triangle.vertex) mesh->triangles.push_reserved(v - k_box_corners);
-  }
-  return {};
+  });
 }
 
 static void hand_over(PolygonMesh* result, PolygonMesh* mesh) {
@@ -32646,7 +32972,7 @@ static Status reinsert_all(SideTriangles* side, bool* proved) {
   side->inner[0] = 4 * builder.fan[0];
   side->inner[first] = 4 * builder.fan[0] + 2;
   for (uint32_t i = 1; i < last - 1; ++i) {
-    if (i % 16384 == 0) TRY(side->points.context().checkpoint());
+    if (i % 4096 == 0) TRY(side->points.context().checkpoint());
     if (reinsert(side, &builder, builder.order[i])) continue;
     for (const uint32_t slot : builder.fan) TRY(builder.stack.push(4 * slot));
     TRY(settle(side, &builder));
@@ -33228,7 +33554,7 @@ static Status search_place(Triangulation* t, uint32_t vertex, bool* found) {
 /* Searches better places for the free corners of poor triangles. */
 static Status mend_triangles(Triangulation* t, const Mobility& mobility, bool* found) {
   for (uint32_t i = 0; i < t->triangles.size(); ++i) {
-    if (i % 16384 == 0) TRY(t->points.context().checkpoint());
+    if (i % 4096 == 0) TRY(t->points.context().checkpoint());
     const Triangle triangle = t->triangles[i];
     const uint32_t* v = triangle.vertex;
     if ((triangle.flags & k_outside) != 0 || mobility.rests(triangle)) continue;
@@ -33259,7 +33585,7 @@ Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, ui
   t->stack.clear();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (uint32_t v = first_free; v < count; ++v) {
-      if (v % 16384 == 0) TRY(context.checkpoint());
+      if (v % 4096 == 0) TRY(context.checkpoint());
       if (awake[v] != 0) TRY(relax_vertex(t, sizes, awake.span(), v));
     }
   }
@@ -33300,9 +33626,11 @@ struct CurveGraph {
 /* Two vertices for each curve edge. */
 static Status list_given_edges(Context& context, const GivenCurves& curves,
                                Array<uint32_t>* edges) {
+  constexpr uint32_t k_edges_per_checkpoint = 1u << 14;
   Array<uint32_t> twins(context);
   TRY(mesh::find_twins(static_cast<uint32_t>(curves.position.size()), curves.triangle, &twins));
   for (uint32_t h = 0; h < twins.size(); ++h) {
+    if ((h + 1) % k_edges_per_checkpoint == 0) TRY(context.checkpoint());
     const uint32_t g = twins[h];
     if (g != k_none && (g < h || curves.patch[g / 3] == curves.patch[h / 3])) continue;
     const uint32_t a = curves.triangle[h], b = curves.triangle[mesh::next_half_edge(h)];
@@ -33330,15 +33658,15 @@ static Status find_curve_graph(Context& context, const GivenCurves& curves, Curv
   TRY(graph->is_node.assign(n, 0));
   TRY(filled.assign(n, 0));
   for (uint32_t v : edges) ++graph->start[v + 1];
-  for (uint32_t v = 0; v < n; ++v) graph->start[v + 1] += graph->start[v];
-  for (size_t e = 0; e < edges.size(); ++e) {
+  TRY(in_parts(context, n, [&](size_t v) { graph->start[v + 1] += graph->start[v]; }));
+  TRY(in_parts(context, edges.size(), [&](size_t e) {
     const uint32_t v = edges[e];
     graph->neighbour[graph->start[v] + filled[v]++] = edges[e ^ 1];
-  }
-  for (uint32_t v = 0; v < n; ++v) {
-    graph->is_node[v] = filled[v] > 0 && !runs_through(curves.position, *graph, v);
-  }
-  return {};
+  }));
+  return in_parts(context, n, [&](size_t v) {
+    graph->is_node[v] =
+        filled[v] > 0 && !runs_through(curves.position, *graph, static_cast<uint32_t>(v));
+  });
 }
 
 Status find_arcs(Context& context, const GivenCurves& curves, uint32_t least_edges, Arcs* arcs) {
@@ -33387,8 +33715,8 @@ Status shifted_laplacian(const sparse::Csc& laplacian, Span<const uint32_t> unkn
   part->row.clear();
   part->value.clear();
   uint32_t j = 0;
-  for (uint32_t column = 0; column < laplacian.cols; ++column) {
-    if (unknown[column] == k_none) continue;
+  TRY(in_parts(part->start.context(), laplacian.cols, [&](size_t column) {
+    if (unknown[column] == k_none) return;
     part->start[j] = static_cast<uint32_t>(part->row.size());
     for (uint32_t p = laplacian.start[column]; p < laplacian.start[column + 1]; ++p) {
       const uint32_t i = unknown[laplacian.row[p]];
@@ -33398,7 +33726,7 @@ Status shifted_laplacian(const sparse::Csc& laplacian, Span<const uint32_t> unkn
       part->value.push_reserved(own - scale * laplacian.value[p]);
     }
     ++j;
-  }
+  }));
   part->start[j] = static_cast<uint32_t>(part->row.size());
   return {};
 }
@@ -33416,13 +33744,13 @@ Status LaplacianPairs::factor_block(const FairingBlocks& blocks, Span<const uint
   TRY(block->area.reserve(n));
   block->unknown.clear();
   block->area.clear();
-  for (uint32_t v = 0; v < n; ++v) {
+  TRY(in_parts(context, n, [&](size_t v) {
     own[v] = numbers[v] == k_none ? k_none : static_cast<uint32_t>(block->unknown.size());
-    if (own[v] == k_none) continue;
-    vertex.push_reserved(v);
+    if (own[v] == k_none) return;
+    vertex.push_reserved(static_cast<uint32_t>(v));
     block->unknown.push_reserved(numbers[v]);
     block->area.push_reserved(blocks.area[v]);
-  }
+  }));
   const uint32_t unknowns = static_cast<uint32_t>(vertex.size());
   TRY(block->value.resize(unknowns));
   if (unknowns == 0) return {};
@@ -33437,15 +33765,15 @@ Status LaplacianPairs::factor_block(const FairingBlocks& blocks, Span<const uint
 }
 
 Status LaplacianPairs::build(const FairingBlocks& blocks) {
-  Array<double> shift(u_.unknown.context());
+  Context& context = u_.unknown.context();
+  Array<double> shift(context);
   const double length2 = blocks.smoothing_length * blocks.smoothing_length;
   TRY(shift.resize(blocks.area.size()));
-  for (size_t v = 0; v < blocks.spring.size(); ++v) {
-    shift[v] = std::sqrt(blocks.spring[v] * blocks.area[v]);
-  }
+  TRY(in_parts(context, blocks.spring.size(),
+               [&](size_t v) { shift[v] = std::sqrt(blocks.spring[v] * blocks.area[v]); }));
   TRY(factor_block(blocks, blocks.displacement, 1.0,
                    blocks.spring.empty() ? Span<const double>{} : shift.span(), &u_));
-  for (size_t v = 0; v < shift.size(); ++v) shift[v] = 2.0 * blocks.area[v];
+  TRY(in_parts(context, shift.size(), [&](size_t v) { shift[v] = 2.0 * blocks.area[v]; }));
   return factor_block(blocks, blocks.curvature, length2, shift.span(), &h_);
 }
 
@@ -33453,12 +33781,12 @@ Status LaplacianPairs::build(const FairingBlocks& blocks) {
 Status LaplacianPairs::apply_block(Span<const double> x, Span<double> y, Block* block) {
   const Span<double> value = block->value.span();
   if (value.empty()) return {};
-  for (size_t i = 0; i < value.size(); ++i) value[i] = x[block->unknown[i]];
+  Context& context = block->unknown.context();
+  TRY(in_parts(context, value.size(), [&](size_t i) { value[i] = x[block->unknown[i]]; }));
   TRY(block->factor.solve(value, 1));
-  for (size_t i = 0; i < value.size(); ++i) value[i] *= block->area[i];
+  TRY(in_parts(context, value.size(), [&](size_t i) { value[i] *= block->area[i]; }));
   TRY(block->factor.solve(value, 1));
-  for (size_t i = 0; i < value.size(); ++i) y[block->unknown[i]] = value[i];
-  return {};
+  return in_parts(context, value.size(), [&](size_t i) { y[block->unknown[i]] = value[i]; });
 }
 
 Status LaplacianPairs::apply(void* self, Span<const double> x, Span<double> y) {
@@ -33581,7 +33909,8 @@ static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
   TRY(list_inner_edges(input, &inner));
   TRY(split->triangle.assign(input.triangle.size(), k_none));
   TRY(split->origin.reserve(input.triangle.size()));
-  for (uint32_t v = 0; v < n; ++v) {
+  TRY(in_parts(context, n, [&](size_t i) {
+    const uint32_t v = static_cast<uint32_t>(i);
     const Span<const uint32_t> fan = corner.span().part(start[v], start[v + 1] - start[v]);
     /* A soft vertex has an unknown, whose column takes no row twice. */
     const Span<const uint32_t> cuts = input.held[v] ? inner[v] : Span<const uint32_t>{};
@@ -33598,38 +33927,40 @@ static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
       walk_sector(input, fan, cuts, fan[k], true, split);
       walk_sector(input, fan, cuts, fan[k], false, split);
     }
-  }
+  }));
   split->vertices = static_cast<uint32_t>(split->origin.size());
   return {};
 }
 
 static Status add_rim_conormals(SplitMesh* split) {
-  Array<uint32_t> twins(split->origin.context());
+  Context& context = split->origin.context();
+  Array<uint32_t> twins(context);
   TRY(mesh::find_twins(split->vertices, split->triangle.span(), &twins));
   TRY(split->conormal.assign(split->vertices, Vec3{}));
-  for (uint32_t h = 0; h < twins.size(); ++h) {
-    if (twins[h] != k_none) continue;
-    const uint32_t a = split->triangle[h], b = split->triangle[mesh::next_half_edge(h)];
+  return in_parts(context, twins.size(), [&](size_t h) {
+    if (twins[h] != k_none) return;
+    const uint32_t next = mesh::next_half_edge(static_cast<uint32_t>(h));
+    const uint32_t a = split->triangle[h], b = split->triangle[next];
     const Vec3 edge = split->position[b] - split->position[a];
     const Vec3 half = 0.5 * cross(edge, unit(split->normal[a] + split->normal[b]));
     split->conormal[a] += half;
     split->conormal[b] += half;
-  }
-  return {};
+  });
 }
 
 static Status make_split_mesh(const DisplaceInput& input, Span<const Vec3> normal,
                               Span<const mesh::TriangleShape> shapes, SplitMesh* split) {
+  Context& context = split->origin.context();
   TRY(split_along_curves(input, split));
   TRY(split->position.resize(split->vertices));
   TRY(split->normal.resize(split->vertices));
   TRY(split->area.resize(split->vertices));
-  for (uint32_t r = 0; r < split->vertices; ++r) {
+  TRY(in_parts(context, split->vertices, [&](size_t r) {
     split->position[r] = input.position[split->origin[r]];
     split->normal[r] = normal[split->origin[r]];
-  }
+  }));
   TRY(add_rim_conormals(split));
-  mesh::mixed_voronoi_areas(split->triangle.span(), shapes, split->area.span());
+  TRY(mesh::mixed_voronoi_areas(context, split->triangle.span(), shapes, split->area.span()));
   return mesh::cotangent_laplacian(split->vertices, split->triangle.span(), shapes,
                                    &split->laplacian);
 }
@@ -33638,11 +33969,10 @@ Status MinimumVariation::number_unknowns(Span<const uint8_t> held) {
   TRY(displacement_.resize(held.size()));
   TRY(curvature_.resize(held.size()));
   unknowns_ = 0;
-  for (size_t v = 0; v < held.size(); ++v) {
+  return in_parts(context_, held.size(), [&](size_t v) {
     displacement_[v] = held[v] ? k_none : unknowns_++;
     curvature_[v] = unknowns_++;
-  }
-  return {};
+  });
 }
 
 /* A column whose entries come from several patches, sorted by row. */
@@ -33687,7 +34017,8 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
     rows->value.push_reserved(value);
   };
   uint32_t column = 0, first_copy = 0;  /* split vertices are numbered along with their origins */
-  for (uint32_t v = 0; v < n; ++v) {
+  TRY(in_parts(context_, n, [&](size_t i) {
+    const uint32_t v = static_cast<uint32_t>(i);
     uint32_t end_copy = first_copy;
     while (end_copy < split && origin[end_copy] == v) ++end_copy;
     if (displacement_[v] != k_none) {
@@ -33709,7 +34040,7 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
     }
     add(split + 2 * n + v, 1.0);
     first_copy = end_copy;
-  }
+  }));
   rows->start[column] = static_cast<uint32_t>(rows->row.size());
   return {};
 }
@@ -33718,11 +34049,12 @@ Status MinimumVariation::make_rows(const DisplaceInput& input, const sparse::Csc
 /* Where a border's normal is not known it has no conormal: there that row stays, as the natural */
 /* condition, and the first one's place is taken by a slight pull of h towards zero, without which a */
 /* patch of no known normal at all could have any constant h. */
-static void make_targets(const DisplaceInput& input, const SplitMesh& split,
-                         Span<const double> area, Span<const Vec3> normal, Span<double> weight,
-                         Span<double> target) {
+static Status make_targets(const DisplaceInput& input, const SplitMesh& split,
+                           Span<const double> area, Span<const Vec3> normal, Span<double> weight,
+                           Span<double> target) {
+  Context& context = split.origin.context();
   const double length2 = input.smoothing_length * input.smoothing_length;
-  for (uint32_t r = 0; r < split.vertices; ++r) {
+  TRY(in_parts(context, split.vertices, [&](size_t r) {
     Vec3 sum = split.conormal[r];
     for (uint32_t p = split.laplacian.start[r]; p < split.laplacian.start[r + 1]; ++p) {
       sum += split.laplacian.value[p] * split.position[split.laplacian.row[p]];
@@ -33733,13 +34065,13 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
       weight[r] *= k_bare_pull;
       target[r] = 0.0;
     }
-  }
-  const uint32_t n = static_cast<uint32_t>(area.size());
-  for (uint32_t v = 0; v < n; ++v) {
+  }));
+  const size_t n = area.size();
+  return in_parts(context, n, [&](size_t v) {
     const bool left_out = input.on_border[v] && !input.is_bare(v);
     weight[split.vertices + v] = left_out ? 0.0 : length2 * length2 / area[v];
     target[split.vertices + v] = 0.0;
-    const uint32_t r = split.vertices + n + v;
+    const size_t r = split.vertices + n + v;
     const bool pulled = input.soft.any() && input.soft.cutoff[v] > 0.0;
     weight[r] =
         pulled ? length2 * length2 * spring(input.soft.share[v], input.soft.cutoff[v], 4) : 0.0;
@@ -33747,7 +34079,7 @@ static void make_targets(const DisplaceInput& input, const SplitMesh& split,
     const bool foretold = !input.foretold_weight.empty();
     weight[r + n] = foretold ? input.smoothing_length * input.foretold_weight[v] : 0.0;
     target[r + n] = foretold ? input.foretold_curvature[v] : 0.0;
-  }
+  });
 }
 
 /* y = rows^T diag(weight) rows x. */
@@ -33755,21 +34087,22 @@ static Status apply_normal_equations(void* self, Span<const double> x, Span<doub
   NormalEquations& equations = *static_cast<NormalEquations*>(self);
   const sparse::Csc& rows = equations.rows;
   const Span<double> image = equations.image.span();
-  for (double& value : image) value = 0.0;
-  for (uint32_t j = 0; j < rows.cols; ++j) {
+  Context& context = equations.image.context();
+  TRY(in_parts(context, image.size(), [&](size_t r) { image[r] = 0.0; }));
+  TRY(in_parts(context, rows.cols, [&](size_t j) {
     for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
       image[rows.row[p]] += rows.value[p] * x[j];
     }
-  }
-  for (size_t r = 0; r < image.size(); ++r) image[r] *= equations.weight[r];
-  for (uint32_t j = 0; j < rows.cols; ++j) {
+  }));
+  TRY(in_parts(context, image.size(), [&](size_t r) { image[r] *= equations.weight[r]; }));
+  TRY(in_parts(context, rows.cols, [&](size_t j) {
     double sum = 0.0;
     for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
       sum += rows.value[p] * image[rows.row[p]];
     }
     y[j] = sum;
-  }
-  return equations.image.context().checkpoint();
+  }));
+  return context.checkpoint();
 }
 
 /* Conjugate gradients from the last step's h, until the residual is what the size allows. What */
@@ -33782,7 +34115,8 @@ Status MinimumVariation::iterate(const WeightedRows& system,
   NormalEquations equations(context_, system.rows, system.weight);
   TRY(equations.image.resize(system.rows.rows));
   TRY(context_.enter(Stage::solve));
-  for (size_t i = 0; i < solution.size(); ++i) solution[i] = start_.empty() ? 0.0 : start_[i];
+  TRY(in_parts(context_, solution.size(),
+               [&](size_t i) { solution[i] = start_.empty() ? 0.0 : start_[i]; }));
   const Status status =
       sparse::conjugate_gradients(context_, {apply_normal_equations, &equations}, preconditioner,
                                   system.rhs, solution, {tolerance, most}, &result);
@@ -33808,11 +34142,11 @@ Status MinimumVariation::order_unknowns(const DisplaceInput& input, const sparse
   Array<uint32_t> vertex(context_), patch(context_);
   TRY(vertex.reserve(unknowns_));
   TRY(patch.assign(input.position.size(), 0));
-  for (uint32_t v = 0; v < displacement_.size(); ++v) {
-    if (displacement_[v] != k_none) vertex.push_reserved(v);
-    vertex.push_reserved(v);
-  }
-  mesh::patches_of_vertices(input.triangle, input.patch, patch.span());
+  TRY(in_parts(context_, displacement_.size(), [&](size_t v) {
+    if (displacement_[v] != k_none) vertex.push_reserved(static_cast<uint32_t>(v));
+    vertex.push_reserved(static_cast<uint32_t>(v));
+  }));
+  TRY(mesh::patches_of_vertices(context_, input.triangle, input.patch, patch.span()));
   return sparse::nested_dissection(matrix, {vertex.span(), input.position, patch.span()}, order);
 }
 
@@ -33828,7 +34162,7 @@ Status MinimumVariation::solve_by_new_factor(const DisplaceInput& input, const W
   Array<uint32_t> all(context_), order(context_);
   TRY(sparse::transpose(rows, &transposed));
   TRY(all.resize(rows.cols));
-  for (uint32_t j = 0; j < rows.cols; ++j) all[j] = j;
+  TRY(in_parts(context_, rows.cols, [&](size_t j) { all[j] = static_cast<uint32_t>(j); }));
   TRY(sparse::weighted_product(transposed, system.weight, rows, all.span(), rows.cols,
                                sparse::Part::lower, &matrix));
   transposed.row.free();
@@ -33862,7 +34196,7 @@ Status MinimumVariation::solve_by_pairs(const DisplaceInput& input, const sparse
   if (!iterative_) {
     Array<uint32_t> patch(context_);
     TRY(patch.assign(input.position.size(), 0));
-    mesh::patches_of_vertices(input.triangle, input.patch, patch.span());
+    TRY(mesh::patches_of_vertices(context_, input.triangle, input.patch, patch.span()));
     const size_t n = input.position.size(), springs = system.rows.rows - 2 * n;
     TRY(pairs_.build({laplacian,
                       area,
@@ -33887,30 +34221,30 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
       solution(context_);
   sparse::Csc laplacian(context_), rows(context_);
   SplitMesh split(context_);
-  mesh::vertex_normals(input.position, input.triangle, normal);
-  for (uint32_t v = 0; v < n; ++v) {
+  TRY(mesh::vertex_normals(context_, input.position, input.triangle, normal));
+  TRY(in_parts(context_, n, [&](size_t v) {
     if (input.on_curve[v] && !input.is_bare(v)) normal[v] = input.curve_normal[v];
-  }
+  }));
   TRY(mesh::triangle_shapes(input.position, input.triangle, &shapes));
   TRY(make_split_mesh(input, normal, shapes.span(), &split));
   TRY(context_.checkpoint());
   TRY(area.resize(n));
-  mesh::mixed_voronoi_areas(input.triangle, shapes.span(), area.span());
+  TRY(mesh::mixed_voronoi_areas(context_, input.triangle, shapes.span(), area.span()));
   TRY(mesh::cotangent_laplacian(n, input.triangle, shapes.span(), &laplacian));
   TRY(number_unknowns(input.held));
   TRY(make_rows(input, split.laplacian, split.area.span(), split.origin.span(), laplacian, &rows));
   TRY(context_.checkpoint());
   TRY(weight.resize(rows.rows));
   TRY(target.resize(rows.rows));
-  make_targets(input, split, area.span(), normal, weight.span(), target.span());
+  TRY(make_targets(input, split, area.span(), normal, weight.span(), target.span()));
   TRY(rhs.resize(unknowns_));
   TRY(solution.resize(unknowns_));
-  for (uint32_t j = 0; j < unknowns_; ++j) {
+  TRY(in_parts(context_, unknowns_, [&](size_t j) {
     rhs[j] = 0.0;
     for (uint32_t p = rows.start[j]; p < rows.start[j + 1]; ++p) {
       rhs[j] += rows.value[p] * (weight[rows.row[p]] * target[rows.row[p]]);
     }
-  }
+  }));
   TRY(context_.checkpoint());
   const WeightedRows system = {rows, weight.span(), rhs.span()};
   bool solved = false;
@@ -33927,11 +34261,10 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
     TRY(solve_by_pairs(input, laplacian, area.span(), system, solution.span()));
   }
   TRY(start_.copy(solution.span()));
-  for (uint32_t v = 0; v < n; ++v) {
+  return in_parts(context_, n, [&](size_t v) {
     step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
     if (!input.held[v]) start_[displacement_[v]] = 0.0;
-  }
-  return {};
+  });
 }
 
 }  /* namespace wireskin::smooth */
@@ -34061,15 +34394,16 @@ static double greater(double a, double b) {
 
 /* What the patches are like and which touch each other. */
 static Status survey_patches(Dissector* d) {
+  Context& context = d->start.context();
   const Geometry& g = d->geometry;
   const uint32_t vertices = static_cast<uint32_t>(g.position.size());
   uint32_t count = 0;
   for (const uint32_t p : g.patch) count = p >= count ? p + 1 : count;
   TRY(d->centre.assign(count, PatchCentre{}));
   TRY(d->mixed.assign(vertices, 0));
-  Array<PatchContact> touch(d->start.context());
+  Array<PatchContact> touch(context);
   for (uint32_t v = 0; v < vertices; ++v) {
-    TRY(checkpoint_at_column(d->start.context(), v));
+    TRY(checkpoint_at_column(context, v));
     const uint32_t p = g.patch[v];
     PatchCentre& c = d->centre[p];
     c.sum += g.position[v];
@@ -34117,11 +34451,13 @@ static bool key_less(const AxisKey& a, const AxisKey& b) {
 }
 
 /* Moves the `count` least keys to the front: Hoare's selection. A run of bad pivots ends in a sort. */
-static void select_least(Span<AxisKey> keys, size_t count) {
+static Status select_least(Context& context, Span<AxisKey> keys, size_t count) {
+  constexpr ptrdiff_t k_long = 1 << 16;
   AxisKey* first = keys.begin();
   AxisKey* end = keys.end();
   AxisKey* const cut = first + count;
   for (int budget = 96; end - first > 16 && budget > 0; --budget) {
+    if (end - first > k_long) TRY(context.checkpoint());
     AxisKey* middle = partition(first, end, key_less);
     if (cut < middle) {
       end = middle;
@@ -34131,6 +34467,7 @@ static void select_least(Span<AxisKey> keys, size_t count) {
   }
   if (cut > first && cut < end)
     sort(Span<AxisKey>{first, static_cast<size_t>(end - first)}, key_less);
+  return {};
 }
 
 /* Orders the patches of a stretch along one axis of space and returns how many go to the left: */
@@ -34174,9 +34511,10 @@ static void forget_patch_sides(const Stretch& s, Dissector* d) {
   for (uint32_t k = s.patch_first; k < s.patch_end; ++k) d->patch_side[d->patches[k]] = 0;
 }
 
-/* Splits a stretch between whole patches along the axis whose cut is shortest. Returns the first */
-/* vertex of the right side, and marks both sides. */
-static uint32_t split_between_patches(const Stretch& s, Dissector* d, uint32_t* patch_middle) {
+/* Splits a stretch between whole patches along the axis whose cut is shortest, and marks both */
+/* sides. `middle`: the first vertex of the right one. */
+static Status split_between_patches(const Stretch& s, Dissector* d, uint32_t* patch_middle,
+                                    uint32_t* middle) {
   int best_axis = 0;
   uint32_t best = k_none;
   for (int axis = 0; axis < 3; ++axis) {
@@ -34190,51 +34528,55 @@ static uint32_t split_between_patches(const Stretch& s, Dissector* d, uint32_t* 
   const uint32_t left = halve_patches(s, best_axis, d);
   weigh_cut(s, left, d);
   *patch_middle = s.patch_first + left;
-  uint32_t middle = s.first, write = 0;
-  for (uint32_t k = s.first; k < s.end; ++k) {
-    const uint32_t v = d->order[k];
+  Context& context = d->order.context();
+  uint32_t left_end = s.first, write = 0;
+  TRY(in_parts(context, s.end - s.first, [&](size_t k) {
+    const uint32_t v = d->order[s.first + k];
     d->side[v] = d->patch_side[d->geometry.patch[v]];
     if (d->side[v] == 1) {
-      d->order[middle++] = v;
+      d->order[left_end++] = v;
     } else {
       d->keys[write++].vertex = v;
     }
-  }
-  for (uint32_t k = 0; k < write; ++k) d->order[middle + k] = d->keys[k].vertex;
+  }));
+  TRY(in_parts(context, write, [&](size_t k) { d->order[left_end + k] = d->keys[k].vertex; }));
   forget_patch_sides(s, d);
-  return middle;
+  *middle = left_end;
+  return {};
 }
 
 /* Splits a stretch of one patch in the middle of its longest side. `window`: only vertices with */
 /* keys in it can touch the other side. The keys are left in the order of the vertices. */
-static uint32_t split_patch(const Stretch& s, Dissector* d, double window[2]) {
+static Status split_patch(const Stretch& s, Dissector* d, uint32_t* middle, double window[2]) {
   const Span<const Vec3> position = d->geometry.position;
+  Context& context = d->order.context();
+  const uint32_t count = s.end - s.first, half = count / 2;
   Vec3 low = position[d->order[s.first]], high = low;
-  for (uint32_t k = s.first; k < s.end; ++k) {
-    const Vec3& p = position[d->order[k]];
+  TRY(in_parts(context, count, [&](size_t k) {
+    const Vec3& p = position[d->order[s.first + k]];
     low = {-greater(-low.x, -p.x), -greater(-low.y, -p.y), -greater(-low.z, -p.z)};
     high = {greater(high.x, p.x), greater(high.y, p.y), greater(high.z, p.z)};
-  }
+  }));
   const Vec3 size = high - low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const uint32_t count = s.end - s.first, half = count / 2;
-  for (uint32_t k = 0; k < count; ++k) {
+  TRY(in_parts(context, count, [&](size_t k) {
     const uint32_t v = d->order[s.first + k];
     d->keys[k] = {along(position[v], axis), v};
-  }
-  select_least(d->keys.span().part(0, count), half);
+  }));
+  TRY(select_least(context, d->keys.span().part(0, count), half));
   double greatest_left = d->keys[0].key, least_right = d->keys[half].key;
-  for (uint32_t k = 0; k < count; ++k) {
+  TRY(in_parts(context, count, [&](size_t k) {
     const uint32_t v = d->keys[k].vertex;
     d->order[s.first + k] = v;
     d->side[v] = k < half ? 1 : 2;
     if (k < half) greatest_left = greater(greatest_left, d->keys[k].key);
     if (k >= half) least_right = -greater(-least_right, -d->keys[k].key);
-  }
+  }));
   const double reach = along(d->centre[d->geometry.patch[d->order[s.first]]].reach, axis);
   window[0] = least_right - reach;
   window[1] = greatest_left + reach;
-  return s.first + half;
+  *middle = s.first + half;
+  return {};
 }
 
 /* Whether the vertex touches the other side of the split under way. */
@@ -34248,13 +34590,15 @@ static bool touches(const Dissector& d, uint32_t v, uint8_t other) {
 /* Lists the places of those of first .. end that touch the other side; those that do not pass */
 /* `near` cannot. */
 template <typename Near>
-static uint32_t list_layer(uint32_t first, uint32_t end, uint8_t other, const Near& near,
-                           Dissector* d, uint32_t* layer) {
+static Status list_layer(uint32_t first, uint32_t end, uint8_t other, const Near& near,
+                         Dissector* d, uint32_t* layer, uint32_t* layer_size) {
   uint32_t count = 0;
-  for (uint32_t k = first; k < end; ++k) {
+  TRY(in_parts(d->order.context(), end - first, [&](size_t i) {
+    const uint32_t k = first + static_cast<uint32_t>(i);
     if (near(k) && touches(*d, d->order[k], other)) layer[count++] = k;
-  }
-  return count;
+  }));
+  *layer_size = count;
+  return {};
 }
 
 /* The columns of the vertices at these places. */
@@ -34274,21 +34618,22 @@ static Status divide(const Stretch& s, Dissector* d) {
   uint32_t patch_middle = s.patch_end, middle = 0, left_layer = 0, right_layer = 0;
   uint32_t* const left_place = d->layer.data();
   if (s.patch_end - s.patch_first > 1) {
-    middle = split_between_patches(s, d, &patch_middle);
+    TRY(split_between_patches(s, d, &patch_middle, &middle));
     const auto near = [&](uint32_t k) { return d->mixed[d->order[k]] != 0; };
-    left_layer = list_layer(s.first, middle, 2, near, d, left_place);
-    right_layer = list_layer(middle, s.end, 1, near, d, left_place + left_layer);
+    TRY(list_layer(s.first, middle, 2, near, d, left_place, &left_layer));
+    TRY(list_layer(middle, s.end, 1, near, d, left_place + left_layer, &right_layer));
   } else {
     double window[2];
-    middle = split_patch(s, d, window);
+    TRY(split_patch(s, d, &middle, window));
     const auto near = [&](uint32_t k) {
       const double key = d->keys[k - s.first].key;
       return key >= window[0] && key <= window[1];
     };
-    left_layer = list_layer(s.first, middle, 2, near, d, left_place);
-    right_layer = list_layer(middle, s.end, 1, near, d, left_place + left_layer);
+    TRY(list_layer(s.first, middle, 2, near, d, left_place, &left_layer));
+    TRY(list_layer(middle, s.end, 1, near, d, left_place + left_layer, &right_layer));
   }
-  for (uint32_t k = s.first; k < s.end; ++k) d->side[d->order[k]] = 0;
+  TRY(in_parts(d->order.context(), s.end - s.first,
+               [&](size_t k) { d->side[d->order[s.first + k]] = 0; }));
   d->work += s.end - s.first;
   uint32_t left_size = middle - s.first, right_size = s.end - middle;
   if (weigh_layer(*d, left_place, left_layer) <=
@@ -34341,12 +34686,12 @@ Status nested_dissection(const Csc& lower, const Geometry& geometry, Array<uint3
   Array<uint32_t> first(context);
   TRY(first.assign(size_t{vertices} + 1, lower.cols));
   for (uint32_t j = lower.cols; j-- > 0;) first[vertex_of(geometry, j)] = j;
-  for (const uint32_t v : d.order) {
+  return in_parts(context, vertices, [&](size_t k) {
+    const uint32_t v = d.order[k];
     for (uint32_t j = first[v]; j < lower.cols && vertex_of(geometry, j) == v; ++j) {
       order->push_reserved(j);
     }
-  }
-  return {};
+  });
 }
 
 }  /* namespace wireskin::sparse */
@@ -34419,28 +34764,29 @@ static void hold_back(const FairMesh& mesh, uint32_t patch, FairReport* report) 
 static Status unfold(Context& context, const FairMesh& mesh, const Guard& guard, Unfolded* safe) {
   TRY(mesh::unfold(context, {mesh.position, mesh.triangle, mesh.patch, kept_vertices(mesh, guard)},
                    safe->folds.span()));
-  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+  return in_parts(context, mesh.triangle.size(), [&](size_t h) {
     const uint32_t v = mesh.triangle[h], p = mesh.patch[h / 3];
-    if (safe->folds[p] > 0) continue;
+    if (safe->folds[p] > 0) return;
     safe->triangle[h] = v;
     safe->position[v] = mesh.position[v];
     safe->known[p] = 1;
-  }
-  return {};
+  });
 }
 
 /* Patches that end with folds go back to the last state that had none. */
-static void put_back_folded(const FairMesh& mesh, const Unfolded& safe, FairReport* report) {
+static Status put_back_folded(Context& context, const FairMesh& mesh, const Unfolded& safe,
+                              FairReport* report) {
   for (uint32_t p = 0; p < safe.folds.size(); ++p) {
     if (safe.folds[p] == 0 || !safe.known[p]) continue;
-    for (size_t h = 0; h < mesh.triangle.size(); ++h) {
-      if (mesh.patch[h / 3] != p) continue;
+    TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
+      if (mesh.patch[h / 3] != p) return;
       const uint32_t v = safe.triangle[h];
       mesh.triangle[h] = v;
       if (!mesh.on_curve[v]) mesh.position[v] = safe.position[v];
-    }
+    }));
     hold_back(mesh, p, report);
   }
+  return {};
 }
 
 static Status harmonic_start(Context& context, const FairMesh& mesh, double* residual) {
@@ -34469,21 +34815,22 @@ struct Placed {
 
 }  /* namespace */
 
-static Status put_in_place(const FairMesh& mesh, Placed* placed, FairMesh* fixed) {
+static Status put_in_place(Context& context, const FairMesh& mesh, Placed* placed,
+                           FairMesh* fixed) {
   *fixed = mesh;
   if (mesh.placed.empty()) return {};
   TRY(placed->on_curve.copy(mesh.on_curve));
   TRY(placed->held.copy(mesh.held));
   TRY(placed->normal.resize(mesh.position.size()));
-  for (size_t v = 0; v < mesh.placed.size(); ++v) {
+  TRY(in_parts(context, mesh.placed.size(), [&](size_t v) {
     if (mesh.placed[v]) mesh.position[v] = mesh.start[v];
-  }
-  mesh::vertex_normals(mesh.position, mesh.triangle, placed->normal.span());
-  for (size_t v = 0; v < mesh.placed.size(); ++v) {
-    if (!mesh.placed[v]) continue;
+  }));
+  TRY(mesh::vertex_normals(context, mesh.position, mesh.triangle, placed->normal.span()));
+  TRY(in_parts(context, mesh.placed.size(), [&](size_t v) {
+    if (!mesh.placed[v]) return;
     placed->on_curve[v] = placed->held[v] = 1;
     mesh.normal[v] = placed->normal[v];
-  }
+  }));
   fixed->on_curve = placed->on_curve.span();
   fixed->held = placed->held.span();
   return {};
@@ -34501,47 +34848,49 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
   return smooth(context, domain, Method::stanko, {mesh.position, mesh.normal}, &report->residual);
 }
 
-static Status prepare_guard(const FairMesh& mesh, uint32_t patches, Guard* guard) {
+static Status prepare_guard(Context& context, const FairMesh& mesh, uint32_t patches,
+                            Guard* guard) {
   TRY(guard->position.copy(mesh.position));
+  TRY(context.checkpoint());
   TRY(guard->triangle.copy(mesh.triangle));
   TRY(guard->area.assign(patches, 0.0));
   TRY(guard->step.assign(patches, -1.0));
   TRY(guard->frozen.assign(patches, 0));
   TRY(guard->still.copy(mesh.held));
   TRY(guard->kept.copy(mesh.on_curve));
-  for (size_t t = 0; t < mesh.patch.size(); ++t) {
+  return in_parts(context, mesh.patch.size(), [&](size_t t) {
     const uint32_t* v = &mesh.triangle[3 * t];
     const Vec3& a = mesh.position[v[0]];
     guard->area[mesh.patch[t]] +=
         0.5 * length(cross(mesh.position[v[1]] - a, mesh.position[v[2]] - a));
-  }
-  return {};
+  });
 }
 
 /* Puts a patch back: flips stay within a patch, so its triangles still stand in the same places. */
-static void freeze(const FairMesh& mesh, uint32_t patch, Guard* guard) {
+static Status freeze(Context& context, const FairMesh& mesh, uint32_t patch, Guard* guard) {
   guard->frozen[patch] = 1;
-  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
-    if (mesh.patch[h / 3] != patch) continue;
+  return in_parts(context, mesh.triangle.size(), [&](size_t h) {
+    if (mesh.patch[h / 3] != patch) return;
     const uint32_t v = guard->triangle[h];
     mesh.triangle[h] = v;
     mesh.position[v] = guard->position[v];
     guard->still[v] = guard->kept[v] = 1;
-  }
+  });
 }
 
 /* Puts all patches back that are not frozen. */
-static void freeze_all(const FairMesh& mesh, Guard* guard, FairReport* report) {
-  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+static Status freeze_all(Context& context, const FairMesh& mesh, Guard* guard, FairReport* report) {
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
     const uint32_t patch = mesh.patch[h / 3];
-    if (guard->frozen[patch]) continue;
+    if (guard->frozen[patch]) return;
     const uint32_t v = guard->triangle[h];
     mesh.triangle[h] = v;
     mesh.position[v] = guard->position[v];
     guard->still[v] = guard->kept[v] = 1;
     hold_back(mesh, patch, report);
-  }
+  }));
   for (uint8_t& frozen : guard->frozen) frozen = 1;
+  return {};
 }
 
 /* Compares the displacements of each patch with its size, before they are applied. */
@@ -34549,11 +34898,11 @@ static Status watch(Context& context, const FairMesh& mesh, Span<const double> s
                     FairReport* report) {
   Array<double> greatest(context);
   TRY(greatest.assign(guard->area.size(), 0.0));
-  for (size_t h = 0; h < mesh.triangle.size(); ++h) {
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
     const double u = std::fabs(step[mesh.triangle[h]]);
     double& most = greatest[mesh.patch[h / 3]];
     if (most == most && !(u <= most)) most = u;  /* not a number stays */
-  }
+  }));
   for (uint32_t p = 0; p < greatest.size(); ++p) {
     if (guard->frozen[p]) continue;
     const double share = greatest[p] / std::sqrt(guard->area[p]);
@@ -34562,7 +34911,7 @@ static Status watch(Context& context, const FairMesh& mesh, Span<const double> s
     if (first && share > report->greatest_step) report->greatest_step = share;
     guard->step[p] = share;
     if (share <= k_greatest_step && !grows) continue;
-    freeze(mesh, p, guard);
+    TRY(freeze(context, mesh, p, guard));
     hold_back(mesh, p, report);
   }
   return {};
@@ -34572,7 +34921,7 @@ static Status foretell(Context& context, const FairMesh& mesh, Span<const Vec3> 
                        Foretold* foretold) {
   Array<uint8_t> given(context);
   TRY(given.copy(mesh.held));
-  for (size_t v = 0; v < mesh.bare.size(); ++v) given[v] = given[v] && !mesh.bare[v];
+  TRY(in_parts(context, mesh.bare.size(), [&](size_t v) { given[v] = given[v] && !mesh.bare[v]; }));
   return foretell_curvature(context,
                             {mesh.position, curve_normal, mesh.triangle, mesh.patch, given.span()},
                             &foretold->curvature, &foretold->weight);
@@ -34611,10 +34960,9 @@ static Status displacement_step(Context& context, const FairMesh& mesh, double s
                                mesh.inner_edge};
   TRY(solver->solve(input, direction.span(), step.span()));
   TRY(watch(context, mesh, step.span(), guard, report));
-  for (size_t v = 0; v < n; ++v) {
+  return in_parts(context, n, [&](size_t v) {
     if (!guard->still[v]) mesh.position[v] += step[v] * direction[v];
-  }
-  return {};
+  });
 }
 
 Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const FairOptions& options,
@@ -34626,11 +34974,12 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   Guard guard(context);
   Unfolded safe(context);
   TRY(safe.position.copy(mesh.position));
+  TRY(context.checkpoint());
   TRY(safe.triangle.copy(mesh.triangle));
   TRY(safe.folds.assign(patches, 0));
   TRY(safe.known.assign(patches, 0));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
-  TRY(put_in_place(mesh, &placed, &fixed));
+  TRY(put_in_place(context, mesh, &placed, &fixed));
   TRY(unfold(context, mesh, guard, &safe));
   for (int k = 0; k < options.paper_steps; ++k) {
     TRY(paper_step(context, fixed, &shapes, report));
@@ -34638,7 +34987,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   }
   /* Soft curves take the normals that the last step smoothed; held ones have those given. */
   TRY(curve_normal.copy(mesh.normal));
-  TRY(prepare_guard(mesh, patches, &guard));
+  TRY(prepare_guard(context, mesh, patches, &guard));
   Foretold foretold(context);
   if (options.displacement_steps > 0) {
     TRY(foretell(context, mesh, curve_normal.span(), &foretold));
@@ -34651,7 +35000,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     /* Triangles too thin for a system of this order may do for those before. */
     const bool singular = moved.code == Code::not_positive_definite;
     if (singular) {
-      freeze_all(mesh, &guard, report);
+      TRY(freeze_all(context, mesh, &guard, report));
     } else {
       TRY(moved);
       report->residual = solver.residual();
@@ -34664,7 +35013,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     }
     if (greatest < k_small_step) break;
   }
-  put_back_folded(mesh, safe, report);
+  TRY(put_back_folded(context, mesh, safe, report));
   report->factorisations = solver.factorisations();
   report->iterations = solver.iterations();
   return {};
@@ -34681,6 +35030,8 @@ namespace wireskin::smooth {
 static constexpr uint32_t k_window_share = 3, k_least_window = 4;
 /* A weight of one stands for a relative error of a tenth, and no error is less than .04. */
 static constexpr double k_usual_error = 0.1, k_least_error = 0.04;
+/* So many vertices of arcs are a few milliseconds of work. */
+static constexpr size_t k_vertices_per_checkpoint = size_t{1} << 14;
 
 namespace {
 
@@ -35047,6 +35398,14 @@ static Status number_nodes(Context& context, size_t vertices, Span<ArcEnd> ends,
   return {};
 }
 
+/* Arcs may be long or short, so their vertices are counted instead. */
+static Status pause_after_arc(Context& context, size_t vertices, size_t* work) {
+  *work += vertices;
+  if (*work < k_vertices_per_checkpoint) return {};
+  *work = 0;
+  return context.checkpoint();
+}
+
 Status foretell_curvature(Context& context, const GivenCurves& curves, Array<double>* curvature,
                           Array<double>* weight) {
   const size_t n = curves.position.size();
@@ -35057,10 +35416,11 @@ Status foretell_curvature(Context& context, const GivenCurves& curves, Array<dou
   TRY(weight->assign(n, 0.0));
   TRY(find_arcs(context, curves, k_least_window, &arcs));
   TRY(ends.resize(size_t{2} * arcs.count()));
+  size_t work = 0;
   for (uint32_t a = 0; a < arcs.count(); ++a) {
     ends[2 * a] = leave_node(curves, arcs.arc(a), false);
     ends[2 * a + 1] = leave_node(curves, arcs.arc(a), true);
-    if (a % 1024 == 1023) TRY(context.checkpoint());
+    TRY(pause_after_arc(context, arcs.arc(a).size(), &work));
   }
   uint32_t nodes = 0;
   TRY(number_nodes(context, n, ends.span(), &nodes));
@@ -35074,6 +35434,7 @@ Status foretell_curvature(Context& context, const GivenCurves& curves, Array<dou
         forms[first].error * forms[first].error + forms[last].error * forms[last].error;
     const ArcCurvature known = make_arc_curvature(curves, arcs.arc(a), &ends[2 * a], of_ends);
     foretell_arc(curves, arcs.arc(a), known, node_error2, curvature->span(), weight->span());
+    TRY(pause_after_arc(context, arcs.arc(a).size(), &work));
   }
   return {};
 }
@@ -35119,6 +35480,7 @@ Status postorder(Span<const uint32_t> parent, Array<uint32_t>* order) {
   TRY(order->reserve(n));
   order->clear();
   for (uint32_t j = n; j-- > 0;) {
+    TRY(checkpoint_at_column(order->context(), j));
     if (parent[j] == k_none) continue;
     sibling[j] = first_child[parent[j]];
     first_child[parent[j]] = j;
@@ -35128,6 +35490,7 @@ Status postorder(Span<const uint32_t> parent, Array<uint32_t>* order) {
     uint32_t node = first_leaf(first_child, root);
     order->push_reserved(node);
     while (node != root) {
+      TRY(checkpoint_at_column(order->context(), static_cast<uint32_t>(order->size())));
       const bool last = sibling[node] == k_none;
       node = last ? parent[node] : first_leaf(first_child, sibling[node]);
       order->push_reserved(node);
@@ -35162,6 +35525,7 @@ Status column_counts(const Pattern& lower, Span<const uint32_t> parent, Array<ui
   TRY(count->assign(n, 0));
   for (uint32_t j = 0; j < n; ++j) first[j] = ancestor[j] = j;
   for (uint32_t j = 0; j < n; ++j) {
+    TRY(checkpoint_at_column(context, j));
     if (first[j] == j) ++(*count)[j];
     if (parent[j] != k_none && first[j] < first[parent[j]]) first[parent[j]] = first[j];
   }
@@ -35179,10 +35543,9 @@ Status column_counts(const Pattern& lower, Span<const uint32_t> parent, Array<ui
     }
     if (parent[j] != k_none) ancestor[j] = parent[j];
   }
-  for (uint32_t j = 0; j < n; ++j) {
+  return in_parts(context, n, [&](size_t j) {
     if (parent[j] != k_none) (*count)[parent[j]] += (*count)[j];
-  }
-  return {};
+  });
 }
 
 }  /* namespace wireskin::sparse */
@@ -35222,9 +35585,10 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
   TRY(constraints->held.resize(n));
   bool any = false;
   for (double cutoff : set.soft) any = any || cutoff > 0.0;
-  for (size_t v = 0; v < n; ++v) {
+  Context& context = constraints->held.context();
+  TRY(in_parts(context, n, [&](size_t v) {
     constraints->on_curve[v] = constraints->held[v] = v < curve_vertices;
-  }
+  }));
   if (!any) return {};
   TRY(curve_shares(surface, &constraints->share));
   TRY(constraints->cutoff.assign(n, -1.0));
@@ -35236,11 +35600,10 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
     const double own = holds ? 0.0 : set.soft[curve];
     if (cutoff < 0.0 || own < cutoff) cutoff = own;
   }
-  for (size_t v = 0; v < n; ++v) {
+  return in_parts(context, n, [&](size_t v) {
     if (constraints->cutoff[v] < 0.0) constraints->cutoff[v] = 0.0;
     if (constraints->cutoff[v] > 0.0) constraints->held[v] = 0;
-  }
-  return {};
+  });
 }
 
 Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* constraints) {
@@ -35248,33 +35611,34 @@ Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* c
   const bool soft = set.soft > k_least_cutoff * spacing;
   TRY(constraints->on_curve.copy(set.constrained));
   TRY(constraints->held.assign(n, 0));
-  for (size_t v = 0; v < n; ++v) constraints->held[v] = set.constrained[v] != 0 && !soft;
-  if (!soft) return {};
   Context& context = constraints->share.context();
+  TRY(in_parts(context, n,
+               [&](size_t v) { constraints->held[v] = set.constrained[v] != 0 && !soft; }));
+  if (!soft) return {};
   Array<double> all(context);
   Array<uint32_t> count(context);
   TRY(constraints->cutoff.assign(n, 0.0));
   TRY(constraints->share.assign(n, 0.0));
   TRY(all.assign(n, 0.0));
   TRY(count.assign(n, 0));
-  for (uint32_t h = 0; h < set.triangle.size(); ++h) {
+  TRY(in_parts(context, set.triangle.size(), [&](size_t h) {
     /* Inner edges are met twice, those of a border once; a quarter and a half of a length is near */
     /* enough. */
-    const uint32_t a = set.triangle[h], b = set.triangle[mesh::next_half_edge(h)];
+    const uint32_t a = set.triangle[h];
+    const uint32_t b = set.triangle[mesh::next_half_edge(static_cast<uint32_t>(h))];
     const double edge = length(set.position[b] - set.position[a]);
     all[a] += edge;
     ++count[a];
-    if (!set.constrained[a] || !set.constrained[b]) continue;
+    if (!set.constrained[a] || !set.constrained[b]) return;
     constraints->share[a] += 0.5 * edge;
     constraints->share[b] += 0.5 * edge;
-  }
-  for (size_t v = 0; v < n; ++v) {
-    if (!set.constrained[v]) continue;
+  }));
+  return in_parts(context, n, [&](size_t v) {
+    if (!set.constrained[v]) return;
     constraints->cutoff[v] = set.soft;
     if (constraints->share[v] == 0.0)
       constraints->share[v] = all[v] / static_cast<double>(count[v]);
-  }
-  return {};
+  });
 }
 
 }  /* namespace wireskin */
@@ -35310,12 +35674,17 @@ Status count_inverted(Context& context, Surface* surface) {
 static Status measure(Context& context, Span<const uint8_t> on_border, Span<const uint8_t> on_curve,
                       Surface* surface) {
   TRY(context.enter(Stage::result));
-  for (const Vec3& p : surface->position) {
-    if (p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0) continue;
+  bool is_finite = true;
+  TRY(in_parts(context, surface->position.size(), [&](size_t v) {
+    const Vec3& p = surface->position[v];
+    is_finite = is_finite && p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0;
+  }));
+  if (!is_finite) {
     return fail(Code::not_positive_definite, "the solution of the linear system is not finite");
   }
   TRY(surface->normal.resize(surface->position.size()));
-  mesh::vertex_normals(surface->position.span(), surface->triangle.span(), surface->normal.span());
+  TRY(mesh::vertex_normals(context, surface->position.span(), surface->triangle.span(),
+                           surface->normal.span()));
   TRY(context.progress(0.3));
   TRY(mesh::mean_curvature(surface->position.span(), surface->normal.span(),
                            surface->triangle.span(), on_border, &surface->mean_curvature));
@@ -35323,9 +35692,10 @@ static Status measure(Context& context, Span<const uint8_t> on_border, Span<cons
                                &surface->gaussian_curvature));
   TRY(context.progress(0.6));
   Counts* counts = &surface->counts;
-  counts->least_angle = mesh::least_angle(surface->position.span(), surface->triangle.span());
-  counts->normal_deviation =
-      mesh::deviation(surface->normal.span(), surface->constraint_normal.span());
+  TRY(mesh::least_angle(context, surface->position.span(), surface->triangle.span(),
+                        &counts->least_angle));
+  TRY(mesh::normal_deviation(context, surface->normal.span(), surface->constraint_normal.span(),
+                             &counts->normal_deviation));
   TRY(mesh::dihedral_angles(context, surface->position.span(), surface->triangle.span(),
                             surface->patch.span(), on_curve, !surface->curve_edge.empty(),
                             &counts->dihedral));
@@ -35353,7 +35723,8 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   Counts* counts = &surface->counts;
   Array<uint32_t> vertex_patch(context);
   TRY(vertex_patch.assign(piece.position.size(), 0));
-  mesh::patches_of_vertices(piece.triangle, surface->patch.span(), vertex_patch.span());
+  TRY(mesh::patches_of_vertices(context, piece.triangle, surface->patch.span(),
+                                vertex_patch.span()));
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
     const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve,    piece.held,
@@ -35392,16 +35763,17 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
 /* Held vertices whose normal nobody knows, as points may be; empty where there are none. */
 static Status find_bare(const Constraints& constraints, const Surface& surface,
                         Array<uint8_t>* bare) {
+  Context& context = bare->context();
   bool any = false;
-  for (size_t v = 0; !surface.curve_edge.empty() && v < surface.position.size(); ++v) {
+  if (surface.curve_edge.empty()) return {};
+  TRY(in_parts(context, surface.position.size(), [&](size_t v) {
     any = any || (constraints.held[v] && surface.constraint_normal[v] == Vec3{});
-  }
+  }));
   if (!any) return {};
   TRY(bare->resize(surface.position.size()));
-  for (size_t v = 0; v < bare->size(); ++v) {
+  return in_parts(context, bare->size(), [&](size_t v) {
     (*bare)[v] = constraints.held[v] && surface.constraint_normal[v] == Vec3{};
-  }
-  return {};
+  });
 }
 
 /* Smooths the surface by the chosen method and measures the result. */
@@ -35438,10 +35810,10 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   Array<Vec3> place(context);
   TRY(place.resize(copies));
   TRY(placed.resize(copies));
-  for (size_t c = 0; c < copies; ++c) {
+  TRY(in_parts(context, copies, [&](size_t c) {
     place[c] = start.position[creased->cut.origin[c]];
     placed[c] = start.placed.empty() ? 0 : start.placed[creased->cut.origin[c]];
-  }
+  }));
   TRY(on_curve.resize(copies));
   TRY(held.resize(copies));
   if (!constraints.cutoff.empty()) {
@@ -35450,14 +35822,14 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
     TRY(anchor.copy(creased->position.span()));
   }
   TRY(given_normal.copy(creased->normal.span()));
-  for (size_t c = 0; c < copies; ++c) {
+  TRY(in_parts(context, copies, [&](size_t c) {
     const uint32_t v = creased->cut.origin[c];
     on_curve[c] = constraints.on_curve[v];
     held[c] = constraints.held[v];
-    if (cutoff.empty()) continue;
+    if (cutoff.empty()) return;
     cutoff[c] = constraints.cutoff[v];
     share[c] = constraints.share[v];
-  }
+  }));
   const Workpiece piece = {
       creased->position.span(),
       creased->normal.span(),
@@ -35470,7 +35842,8 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       place.span(),
       placed.span()};
   TRY(apply_method(context, start, piece, method, surface));
-  network::merge_creases(*creased, surface->position.span(), surface->triangle.span());
+  TRY(network::merge_creases(context, *creased, surface->position.span(),
+                             surface->triangle.span()));
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
               surface));
   return network::measure_sides(
@@ -35809,6 +36182,7 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
     Place place;
     place.vertex = static_cast<uint32_t>(v);
     storage->held[v] = mesh.constrained[v] != 0;
+    if (v % 65536 == 65535) TRY(storage->held.context().checkpoint());
     TRY(read_position({mesh.positions, mesh.position_stride}, v, place, &storage->position[v]));
     if (mesh.normals != nullptr && storage->held[v]) {
       TRY(read_normal({mesh.normals, mesh.normal_stride}, v, place, &storage->normal[v]));
@@ -35856,7 +36230,8 @@ static Status smooth_mesh(Context& context, const wsk_mesh& mesh, const wsk_opti
   TRY(read_mesh(mesh, needs_normals, &storage));
   TRY(find_scale(storage.position.span(), &exponent));
   const Scale scale(-exponent);
-  for (Vec3& p : storage.position) p = scale(p);
+  TRY(in_parts(context, storage.position.size(),
+               [&](size_t v) { storage.position[v] = scale(storage.position[v]); }));
   const TriangleSet set = {storage.position.span(),
                            storage.normal.span(),
                            storage.held.span(),
@@ -36471,6 +36846,26 @@ static double box_diagonal(Span<const Vec3> points) {
   return length(high - low);
 }
 
+/* Where a whole curve is a point beside the size of the network, squares of its lengths underflow */
+/* and all places of it would be taken for one. */
+static Status check_extents(const network::Wires& wires) {
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    const Vec3 first = wires.position[wires.start[c]];
+    bool differs = false, moves = false;
+    for (uint32_t i = wires.start[c]; i < wires.start[c + 1] && !moves; ++i) {
+      differs = differs || wires.position[i] != first;
+      moves = length(wires.position[i] - first) > 0.0;
+    }
+    if (moves || !differs) continue;
+    return fail(
+        Code::zero_length_curve,
+        "the curve is but a point beside the size of the network: does a position of another "
+        "one lie far out?",
+        curve_place(c));
+  }
+  return {};
+}
+
 static void report_wires(const network::WireCounts& counts, wsk_report* report) {
   report->curves = counts.curves;
   report->nodes = counts.nodes;
@@ -36487,6 +36882,7 @@ static Status connect(Context& context, const wsk_curve* curves, size_t count,
   TRY(find_scale(wires.position.span(), &exponent));
   const Scale scale(-exponent);
   for (Vec3& p : wires.position) p = scale(p);
+  TRY(check_extents(wires));
   const double diagonal = box_diagonal(wires.position.span());
   network::ConnectOptions chosen;
   chosen.snap = options.snap >= 0.0;

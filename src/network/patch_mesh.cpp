@@ -175,12 +175,17 @@ static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
   return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
 }
 
-// Room for `more` elements; grows as push() does.
+// Room for `more` elements; grows as push() does, but what is moved may be long.
 template <typename T>
 static Status reserve_more(Array<T>* array, size_t more) {
   const size_t room = array->capacity_bytes() / sizeof(T), needed = array->size() + more;
   if (needed <= room) return {};
-  return array->reserve(needed < room + room / 2 ? room + room / 2 : needed);
+  Array<T> grown(array->context());
+  TRY(grown.reserve(needed < room + room / 2 ? room + room / 2 : needed));
+  TRY(in_parts(array->context(), array->size(),
+               [&](size_t i) { grown.push_reserved((*array)[i]); }));
+  *array = static_cast<Array<T>&&>(grown);
+  return {};
 }
 
 // Notes the chords of triangle `t`, whose vertices among the patch's are `corner`, and its corners
