@@ -2916,13 +2916,19 @@ namespace wireskin {
 template <class Body>
 Status in_parts(Context& context, size_t count, const Body& body) {
   constexpr size_t k_part = 4096;
-  /* The body stands here once, so that the compiler makes one loop of it and not two. */
+  /* The body stands here once, or the compiler would make a call of it. */
   for (size_t i = 0; i < count;) {
     const bool whole = count - i >= k_part;
     for (const size_t end = whole ? i + k_part : count; i < end; ++i) body(i);
     if (whole) TRY(context.checkpoint());
   }
   return {};
+}
+
+template <typename T>
+Status copy_in_parts(const Array<T>& source, Array<T>* target) {
+  TRY(target->resize(source.size()));
+  return in_parts(target->context(), source.size(), [&](size_t i) { (*target)[i] = source[i]; });
 }
 
 }  /* namespace wireskin */
@@ -12826,19 +12832,19 @@ static Status in_terms_of_nodes(Status status, Span<const network::Node> nodes) 
 static Status take_vertices(const network::CurveVertices& vertices,
                             const network::PatchMesh& patches, Surface* surface) {
   const size_t given = vertices.position.size();
-  TRY(surface->position.assign(patches.vertices, Vec3{}));
-  TRY(surface->constraint_normal.assign(patches.vertices, Vec3{}));
-  TRY(surface->vertex_curve.assign(patches.vertices, k_none));
   Context& context = surface->position.context();
+  TRY(surface->position.assign(patches.vertices, Vec3{}));
+  TRY(context.checkpoint());
+  TRY(surface->constraint_normal.assign(patches.vertices, Vec3{}));
+  TRY(context.checkpoint());
+  TRY(surface->vertex_curve.assign(patches.vertices, k_none));
   TRY(in_parts(context, given, [&](size_t v) {
     surface->position[v] = vertices.position[v];
     surface->constraint_normal[v] = vertices.normal[v];
     surface->vertex_curve[v] = vertices.curve[v];
   }));
-  TRY(context.checkpoint());
-  TRY(surface->triangle.copy(patches.triangle.span()));
-  TRY(context.checkpoint());
-  return surface->patch.copy(patches.patch.span());
+  TRY(copy_in_parts(patches.triangle, &surface->triangle));
+  return copy_in_parts(patches.patch, &surface->patch);
 }
 
 /* The patches that were left out were not held back. */
@@ -35781,8 +35787,8 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
                       smooth::Method method, Surface* surface) {
   Array<Vec3> normal(context), anchor(context);
   Array<uint8_t> bare(context);
-  TRY(normal.copy(surface->constraint_normal.span()));
-  if (!constraints.cutoff.empty()) TRY(anchor.copy(surface->position.span()));
+  TRY(copy_in_parts(surface->constraint_normal, &normal));
+  if (!constraints.cutoff.empty()) TRY(copy_in_parts(surface->position, &anchor));
   TRY(find_bare(constraints, *surface, &bare));
   const Workpiece piece = {surface->position.span(),
                            normal.span(),

@@ -109,19 +109,19 @@ static Status in_terms_of_nodes(Status status, Span<const network::Node> nodes) 
 static Status take_vertices(const network::CurveVertices& vertices,
                             const network::PatchMesh& patches, Surface* surface) {
   const size_t given = vertices.position.size();
-  TRY(surface->position.assign(patches.vertices, Vec3{}));
-  TRY(surface->constraint_normal.assign(patches.vertices, Vec3{}));
-  TRY(surface->vertex_curve.assign(patches.vertices, k_none));
   Context& context = surface->position.context();
+  TRY(surface->position.assign(patches.vertices, Vec3{}));
+  TRY(context.checkpoint());
+  TRY(surface->constraint_normal.assign(patches.vertices, Vec3{}));
+  TRY(context.checkpoint());
+  TRY(surface->vertex_curve.assign(patches.vertices, k_none));
   TRY(in_parts(context, given, [&](size_t v) {
     surface->position[v] = vertices.position[v];
     surface->constraint_normal[v] = vertices.normal[v];
     surface->vertex_curve[v] = vertices.curve[v];
   }));
-  TRY(context.checkpoint());
-  TRY(surface->triangle.copy(patches.triangle.span()));
-  TRY(context.checkpoint());
-  return surface->patch.copy(patches.patch.span());
+  TRY(copy_in_parts(patches.triangle, &surface->triangle));
+  return copy_in_parts(patches.patch, &surface->patch);
 }
 
 // The patches that were left out were not held back.

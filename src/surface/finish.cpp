@@ -142,8 +142,8 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
                       smooth::Method method, Surface* surface) {
   Array<Vec3> normal(context), anchor(context);
   Array<uint8_t> bare(context);
-  TRY(normal.copy(surface->constraint_normal.span()));
-  if (!constraints.cutoff.empty()) TRY(anchor.copy(surface->position.span()));
+  TRY(copy_in_parts(surface->constraint_normal, &normal));
+  if (!constraints.cutoff.empty()) TRY(copy_in_parts(surface->position, &anchor));
   TRY(find_bare(constraints, *surface, &bare));
   const Workpiece piece = {surface->position.span(),
                            normal.span(),
