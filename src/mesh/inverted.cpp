@@ -60,7 +60,7 @@ Status find_inverted(Context& context, Span<const Vec3> position, Span<const uin
   TRY(find_twins(vertices, triangle, &twins));
   for (uint32_t t = 0; t < triangle.size() / 3; ++t) {
     if (faces_a_neighbour(mesh, twins.span(), t)) TRY(candidate.push(t));
-    if (t % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
+    if (t % k_triangles_per_checkpoint == k_triangles_per_checkpoint - 1) TRY(context.checkpoint());
   }
   if (candidate.empty()) return {};
   TRY(find_corners(vertices, triangle, &start, &corner));

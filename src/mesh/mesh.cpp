@@ -5,7 +5,7 @@
 
 namespace wireskin::mesh {
 
-static constexpr size_t k_passed = 16384;  // triangles or vertices between two checkpoints
+static constexpr size_t k_per_checkpoint = 16384;  // triangles or vertices
 
 static Status fail_triangle(const char* sentence, size_t triangle) {
   Place place;
@@ -29,7 +29,7 @@ static Status check_indices(Context& context, uint32_t vertices, Span<const uint
                   place);
     }
     if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
-    if (t % k_passed == k_passed - 1) TRY(context.checkpoint());
+    if (t % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -71,7 +71,7 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
       (*twins)[arriving] = leaving_to[triangles[arriving]];
     }
     for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
-    if (v % k_passed == k_passed - 1) TRY(context.checkpoint());
+    if (v % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -139,7 +139,7 @@ static Status check_fans(Context& context, Span<const uint32_t> twins, Span<cons
       return fail_vertex("the triangles round the vertex do not form one fan", v);
     }
     on_border[v] = fan.borders == 1;
-    if (v % k_passed == k_passed - 1) TRY(context.checkpoint());
+    if (v % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -183,7 +183,7 @@ Status check_areas(Context& context, Span<const Vec3> positions, Span<const uint
     const Vec3& a = positions[triangles[t]];
     const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
     if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
-    if (t / 3 % k_passed == k_passed - 1) TRY(context.checkpoint());
+    if (t / 3 % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
   }
   return {};
 }

@@ -194,9 +194,11 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
   found.at_a = point_of_place(wires, edges.curve[a], found.a);
   found.at_b = point_of_place(wires, edges.curve[b], found.b);
   found.distance = length(found.at_a - found.at_b);
-  // Drawings have less than one, with every line drawn many times a few.
-  constexpr size_t k_most_for_a_sample = 16, k_always = 1024;
-  if (approaches->size() > k_most_for_a_sample * wires.samples() + k_always) {
+  // Drawings have less than one for a sample, with every line drawn many times a few; but all lines
+  // of a lattice cross.
+  constexpr uint64_t k_most_for_a_sample = 16;
+  const uint64_t pairs_of_curves = uint64_t{wires.curves()} * wires.curves() / 2;
+  if (approaches->size() > k_most_for_a_sample * wires.samples() + pairs_of_curves) {
     return fail(Code::bad_argument,
                 "the curves come within the snapping tolerance of each other in too many places: "
                 "give a smaller one");
@@ -205,17 +207,17 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
 }
 
 // Rounding must not part boxes of edges that just reach each other.
-static Vec3 widened(const Vec3& p, double margin) {
+static Vec3 slack_at(const Vec3& p, double margin) {
   constexpr double k_rounding = 1e-15;
-  const double own = (1.0 + 1e-9) * margin, sign = margin < 0.0 ? -k_rounding : k_rounding;
-  return {p.x + own + sign * std::fabs(p.x), p.y + own + sign * std::fabs(p.y),
-          p.z + own + sign * std::fabs(p.z)};
+  const double own = (1.0 + 1e-9) * margin;
+  return {own + k_rounding * std::fabs(p.x), own + k_rounding * std::fabs(p.y),
+          own + k_rounding * std::fabs(p.z)};
 }
 
 static Box box_of_edge(const Vec3& p, const Vec3& q, double margin) {
   const Vec3 low = {smaller(p.x, q.x), smaller(p.y, q.y), smaller(p.z, q.z)};
   const Vec3 high = {larger(p.x, q.x), larger(p.y, q.y), larger(p.z, q.z)};
-  return {widened(low, -margin), widened(high, margin)};
+  return {low - slack_at(low, margin), high + slack_at(high, margin)};
 }
 
 Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double reach,
@@ -242,13 +244,13 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
   size_t work = 0;
   for (uint32_t e = 0; e < box.size(); ++e) {
     TRY(tree.find(box[e], e, &near));
+    work += 8;
     for (const uint32_t other : near) {
       TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
+      if (++work < k_work_per_checkpoint) continue;
+      work = 0;
+      TRY(context.checkpoint());
     }
-    work += 8 + near.size();
-    if (work < k_work_per_checkpoint) continue;
-    work = 0;
-    TRY(context.checkpoint());
   }
   return {};
 }

@@ -4,8 +4,8 @@
 // In: curves. Out: pairs of places with their distance. Edges are found by a tree of boxes,
 // compared as straight lines, and the places then refined on local cubics, because between coarse
 // samples curves that meet pass each other's chords at the height of the arc. O(n log n) for n
-// samples, and what is within reach; fails with bad_argument where that is many times as much as
-// there are samples.
+// samples, and the pairs of edges whose boxes meet; fails with bad_argument where more places are
+// within reach than there are pairs of curves and 16 times as many as samples.
 #pragma once
 
 #include "network/wires.h"

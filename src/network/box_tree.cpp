@@ -1,6 +1,6 @@
 #include "network/box_tree.h"
 
-#include "base/sort.h"
+#include "base/select.h"
 #include "num/minmax.h"
 
 namespace wireskin::network {
@@ -54,9 +54,8 @@ Box BoxTree::bound(uint32_t first, uint32_t count) const {
   return box;
 }
 
-// Hoare's selection (C. A. R. Hoare, "Algorithm 65: Find", 1961) of the median in the axis of the
-// greatest spread; equal places by index.
-void BoxTree::halve(uint32_t first, uint32_t count) {
+// Equal places by index.
+Status BoxTree::halve(uint32_t first, uint32_t count) {
   Vec3 low = twice_centre(boxes_[order_[first]]), high = low;
   for (uint32_t i = first; i < first + count; ++i) {
     const Vec3 c = twice_centre(boxes_[order_[i]]);
@@ -69,22 +68,7 @@ void BoxTree::halve(uint32_t first, uint32_t count) {
     const double x = along(twice_centre(boxes_[a]), axis), y = along(twice_centre(boxes_[b]), axis);
     return x != y ? x < y : a < b;
   };
-  int64_t from = first, to = int64_t{first} + count - 1;
-  const int64_t median = first + count / 2;
-  while (from < to) {
-    const uint32_t pivot = order_[static_cast<size_t>(from + (to - from) / 2)];
-    int64_t i = from, j = to;
-    while (i <= j) {
-      while (before(order_[static_cast<size_t>(i)], pivot)) ++i;
-      while (before(pivot, order_[static_cast<size_t>(j)])) --j;
-      if (i > j) break;
-      const uint32_t other = order_[static_cast<size_t>(i)];
-      order_[static_cast<size_t>(i++)] = order_[static_cast<size_t>(j)];
-      order_[static_cast<size_t>(j--)] = other;
-    }
-    if (j < median) from = i;
-    if (median < i) to = j;
-  }
+  return select_least(order_.context(), order_.span().part(first, count), count / 2, before);
 }
 
 Status BoxTree::build(Span<const Box> boxes) {
@@ -103,7 +87,7 @@ Status BoxTree::build(Span<const Box> boxes) {
     const TreeRange range = todo.pop();
     node_[range.node] = bound(range.first, range.count);
     if (range.is_leaf()) continue;
-    halve(range.first, range.count);
+    TRY(halve(range.first, range.count));
     todo.push(range.upper());
     todo.push(range.lower());
     if ((work += range.count) < 65536) continue;

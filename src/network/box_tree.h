@@ -27,7 +27,7 @@ class BoxTree {
 
  private:
   Box bound(uint32_t first, uint32_t count) const;
-  void halve(uint32_t first, uint32_t count);
+  Status halve(uint32_t first, uint32_t count);
 
   Span<const Box> boxes_;
   Array<uint32_t> order_;  // the boxes of a node are a range of this

@@ -60,7 +60,7 @@ Status Cholesky::locate_entries() {
       lower_.index[k] = position[lower_.index[k]];
     }
     const uint32_t entries = end - lower_.start[supernodes_.first[s]];
-    TRY(count_work(k_entry_work * (size_t{supernodes_.height(s)} + entries)));
+    TRY(count_work(k_entry_work * (uint64_t{supernodes_.height(s)} + entries)));
   }
   return {};
 }
@@ -122,8 +122,8 @@ Status Cholesky::allocate_workspace() {
   return scratch_.resize(scratch_size());
 }
 
-Status Cholesky::count_work(size_t work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 21;
+Status Cholesky::count_work(uint64_t work) {
+  constexpr uint64_t k_work_per_checkpoint = uint64_t{1} << 21;
   work_ += work;
   if (work_ < k_work_per_checkpoint) return {};
   work_ = 0;
@@ -252,7 +252,7 @@ Status Cholesky::factor_one_task(const Task& task, const double* source) {
   for (uint32_t s = task.first; s <= task.root; ++s) {
     const uint32_t bad = factor_supernode(s, source, tools);
     if (bad != k_none) return refuse_column(s, bad);
-    const size_t height = supernodes_.height(s);
+    const uint64_t height = supernodes_.height(s);
     TRY(count_work(height * height * (supernodes_.width(s) + k_column_overhead) / 2));
   }
   return context_->checkpoint();
@@ -416,7 +416,7 @@ Status Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
     const uint32_t after = j + columns;
     if (after < width) fetch(block + k_block * step, columns * step);
     solve_triangle(kernels_, triangle_at(block, step, columns, false), j, false, z);
-    TRY(count_work(size_t{height - j} * columns * lanes));
+    TRY(count_work(uint64_t{height - j} * columns * lanes));
     if (after == height) break;
     kernels_.update({round_up_rows(height - after), lanes, columns, block + columns, step,
                      z.value + j, z.step, 1, z.value + after, z.step, false, false},
@@ -452,7 +452,7 @@ Status Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
                               z.value + after, z.step, z.value + j, z.step});
     }
     solve_triangle(kernels_, triangle_at(block, step, columns, true), j, true, z);
-    TRY(count_work(size_t{height - j} * columns * lanes));
+    TRY(count_work(uint64_t{height - j} * columns * lanes));
   }
   scatter_lanes(supernodes_.rows(s), width, z, y);
   return {};

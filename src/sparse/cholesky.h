@@ -61,14 +61,14 @@ class Cholesky {
   size_t lane_step() const { return round_up_rows(tallest_) + 4; }
   Status solve_forward(uint32_t s, uint32_t lanes);
   Status solve_backward(uint32_t s, uint32_t lanes);
-  Status count_work(size_t work);
+  Status count_work(uint64_t work);
 
   Context* context_;
   DenseKernels kernels_;
   uint32_t n_ = 0;
   uint32_t tallest_ = 0;  // rows of a panel, at most
   size_t nonzeros_ = 0;
-  size_t work_ = 0;  // since the last checkpoint
+  uint64_t work_ = 0;  // since the last checkpoint
   bool analysed_ = false;
   bool factored_ = false;
   Array<uint32_t> order_;

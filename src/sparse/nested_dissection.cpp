@@ -1,7 +1,7 @@
 #include "sparse/nested_dissection.h"
 
 #include "base/in_parts.h"
-#include "base/sort.h"
+#include "base/select.h"
 
 namespace wireskin::sparse {
 
@@ -182,26 +182,6 @@ static bool key_less(const AxisKey& a, const AxisKey& b) {
   return a.key != b.key ? a.key < b.key : a.vertex < b.vertex;
 }
 
-// Moves the `count` least keys to the front: Hoare's selection. A run of bad pivots ends in a sort.
-static Status select_least(Context& context, Span<AxisKey> keys, size_t count) {
-  constexpr ptrdiff_t k_long = 1 << 16;
-  AxisKey* first = keys.begin();
-  AxisKey* end = keys.end();
-  AxisKey* const cut = first + count;
-  for (int budget = 96; end - first > 16 && budget > 0; --budget) {
-    if (end - first > k_long) TRY(context.checkpoint());
-    AxisKey* middle = partition(first, end, key_less);
-    if (cut < middle) {
-      end = middle;
-    } else {
-      first = middle;
-    }
-  }
-  if (cut > first && cut < end)
-    sort(Span<AxisKey>{first, static_cast<size_t>(end - first)}, key_less);
-  return {};
-}
-
 // Orders the patches of a stretch along one axis of space and returns how many go to the left:
 // about half of all vertices.
 static uint32_t halve_patches(const Stretch& s, int axis, Dissector* d) {
@@ -295,7 +275,7 @@ static Status split_patch(const Stretch& s, Dissector* d, uint32_t* middle, doub
     const uint32_t v = d->order[s.first + k];
     d->keys[k] = {along(position[v], axis), v};
   }));
-  TRY(select_least(context, d->keys.span().part(0, count), half));
+  TRY(select_least(context, d->keys.span().part(0, count), half, key_less));
   double greatest_left = d->keys[0].key, least_right = d->keys[half].key;
   TRY(in_parts(context, count, [&](size_t k) {
     const uint32_t v = d->keys[k].vertex;

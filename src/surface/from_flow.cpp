@@ -351,8 +351,10 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   if (!status.ok() && status.code != Code::bad_mesh) return status;
   outcome->manifold = status.ok() && !surface->triangle.empty();
   count_flow(flow, reconstruction, settings, surface);
-  const Status areas =
-      mesh::check_areas(context, surface->position.span(), surface->triangle.span());
+  Status areas;
+  if (outcome->manifold) {
+    areas = mesh::check_areas(context, surface->position.span(), surface->triangle.span());
+  }
   if (!areas.ok() && areas.code != Code::bad_mesh) return areas;
   const bool measurable = outcome->manifold && areas.ok();
   TRY(judge_mesh(context, settings, measurable, *surface, outcome));

@@ -35,9 +35,10 @@ static Status predict_euler_characteristic(Context& context, const network::Netw
 }
 
 static Status stop_on_fault(const Status& status) {
-  const bool no_memory = status.code == Code::out_of_memory || status.code == Code::memory_cap;
-  WIRESKIN_ASSERT(status.ok() || no_memory);
-  return no_memory ? status : Status{};
+  const bool stopped = status.code == Code::out_of_memory || status.code == Code::memory_cap ||
+                       status.code == Code::cancelled;
+  WIRESKIN_ASSERT(status.ok() || stopped);
+  return stopped ? status : Status{};
 }
 
 #endif

@@ -255,6 +255,25 @@ TEST_CASE("a position far out costs no more than any other") {
   CHECK(run.report.curve == 0);
 }
 
+TEST_CASE("a lattice of lines that all cross is no tolerance too large") {
+  Scene scene;
+  constexpr int k_lines = 90;
+  for (int line = 0; line < 2 * k_lines; ++line) {
+    const double along = line % k_lines + 1.0;
+    Curve curve;
+    for (const double end : {0.0, k_lines + 1.0}) {
+      if (line < k_lines) curve.positions.insert(curve.positions.end(), {along, end, 0.0});
+      if (line >= k_lines) curve.positions.insert(curve.positions.end(), {end, along, 0.0});
+      curve.nodes.push_back(WSK_NONE);
+    }
+    scene.curves.push_back(curve);
+  }
+  Run run;
+  run.snap = 0.01;
+  CHECK(run(scenes::curves_of(scene)) == WSK_OK);
+  CHECK(run.report.nodes == k_lines * k_lines);
+}
+
 TEST_CASE("a tolerance that brings all near all is refused") {
   Scene scene = crossing_lines(150);
   for (Curve& curve : scene.curves) {

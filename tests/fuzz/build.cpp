@@ -3,9 +3,23 @@
 // are raw curves, which wsk_connect joins first.
 #include "fuzz/curves.h"
 
-static wsk_status build(const std::vector<wsk_curve>& curves, bool raw, const wsk_options& options,
-                        wsk_surface** surface) {
-  if (!raw) return wsk_build(curves.data(), curves.size(), &options, surface, nullptr);
+#ifdef WIRESKIN_FUZZ_PATCHES
+static constexpr wsk_stage k_last_stage = WSK_STAGE_PATCHES;
+#else
+static constexpr wsk_stage k_last_stage = WSK_STAGE_COUNT;
+#endif
+
+static wsk_status build(const wsk_curve* curves, size_t count, const wsk_options& options,
+                        fuzz::Limits* limits, wsk_surface** surface) {
+  limits->checkpoints = 0;
+  limits->stage = WSK_STAGE_INPUT;
+  limits->last_stage = k_last_stage;
+  return wsk_build(curves, count, &options, surface, nullptr);
+}
+
+static wsk_status connect_and_build(const std::vector<wsk_curve>& curves,
+                                    const wsk_options& options, fuzz::Limits* limits,
+                                    wsk_surface** surface) {
   wsk_connect_options how;
   wsk_connect_options_init(&how, sizeof how);
   how.options = &options;
@@ -14,7 +28,7 @@ static wsk_status build(const std::vector<wsk_curve>& curves, bool raw, const ws
   if (status == WSK_OK) {
     wsk_network_view view;
     wsk_network_get_view(network, &view, sizeof view);
-    status = wsk_build(view.curves, view.curve_count, &options, surface, nullptr);
+    status = build(view.curves, view.curve_count, options, limits, surface);
   }
   wsk_network_free(network);
   return status;
@@ -30,16 +44,16 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const double part = (2 + bytes.below(6)) / 2.0;
   if (bytes.one_in(6)) options.noise = bytes.number();
   if (bytes.one_in(6)) options.soft = bytes.number();
-#ifdef WIRESKIN_FUZZ_PATCHES
-  limits.last_stage = WSK_STAGE_PATCHES;
-#endif
   scenes::Scene scene;
   const bool raw = size > 0 && data[size - 1] % 4 == 0;
   scene.curves = fuzz::read_curves(bytes, !raw);
   options.spacing = fuzz::extent_of(scene.curves) / part / 2;
   if (!std::isfinite(options.spacing)) options.spacing = 0.0;
   wsk_surface* surface = nullptr;
-  fuzz::check_outcome(build(scenes::curves_of(scene), raw, options, &surface), surface);
+  const std::vector<wsk_curve> curves = scenes::curves_of(scene);
+  fuzz::check_outcome(raw ? connect_and_build(curves, options, &limits, &surface)
+                          : build(curves.data(), curves.size(), options, &limits, &surface),
+                      surface);
   fuzz::require(limits.allocator.clean());
   return 0;
 }

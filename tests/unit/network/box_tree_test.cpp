@@ -55,6 +55,23 @@ TEST_CASE("a tree of boxes finds those that meet a box, and no others") {
   }
 }
 
+// Keys that rise and fall are the worst for a pivot in the middle.
+TEST_CASE("a tree of boxes: a tent of a hundred thousand") {
+  constexpr uint32_t k_half = 50000;
+  std::vector<Box> boxes;
+  for (uint32_t i = 0; i < 2 * k_half; ++i) {
+    const double x = i < k_half ? 2 * i : 4 * k_half - 1 - 2 * i;
+    boxes.push_back({{x, 0, 0}, {x, 0, 0}});
+  }
+  Heap heap;
+  BoxTree tree(heap.context);
+  Array<uint32_t> found(heap.context);
+  must(tree.build({boxes.data(), boxes.size()}));
+  CHECK(heap.checkpoints < 10000);  // one for each 65536 that are looked at, at most
+  must(tree.find({{1000, 0, 0}, {1003, 0, 0}}, 0, &found));
+  CHECK(to_vector(found) == std::vector<uint32_t>{500, 501, 2 * k_half - 502, 2 * k_half - 501});
+}
+
 TEST_CASE("a tree of boxes: on a lattice, all alike, one far out, one round all") {
   std::mt19937 random(5);
   std::vector<Box> lattice, alike(300, Box{{1, 2, 3}, {1, 2, 4}}), far;
