@@ -575,7 +575,7 @@ typedef struct wsk_connect_options {
   /* How far apart, in your units, curves may be that are meant to meet. Negative: only what
      coincides is joined. 0 (the default): the median distance of neighbouring samples, at most a
      hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused, and
-     what brings 16 times as many places near each other as there are samples. */
+     what brings more places near each other than 16 for each sample and one for each two curves. */
   double snap;
   wsk_chain chain;
   /* A turn by more than this is a corner: curves are not chained through it. 0 (the default): 60
@@ -2550,14 +2550,14 @@ class Cholesky {
   size_t lane_step() const { return round_up_rows(tallest_) + 4; }
   Status solve_forward(uint32_t s, uint32_t lanes);
   Status solve_backward(uint32_t s, uint32_t lanes);
-  Status count_work(size_t work);
+  Status count_work(uint64_t work);
 
   Context* context_;
   DenseKernels kernels_;
   uint32_t n_ = 0;
   uint32_t tallest_ = 0;  /* rows of a panel, at most */
   size_t nonzeros_ = 0;
-  size_t work_ = 0;  /* since the last checkpoint */
+  uint64_t work_ = 0;  /* since the last checkpoint */
   bool analysed_ = false;
   bool factored_ = false;
   Array<uint32_t> order_;
@@ -4222,8 +4222,8 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
 /* In: curves. Out: pairs of places with their distance. Edges are found by a tree of boxes, */
 /* compared as straight lines, and the places then refined on local cubics, because between coarse */
 /* samples curves that meet pass each other's chords at the height of the arc. O(n log n) for n */
-/* samples, and what is within reach; fails with bad_argument where that is many times as much as */
-/* there are samples. */
+/* samples, and the pairs of edges whose boxes meet; fails with bad_argument where more places are */
+/* within reach than there are pairs of curves and 16 times as many as samples. */
 
 namespace wireskin::network {
 
@@ -6262,7 +6262,7 @@ class BoxTree {
 
  private:
   Box bound(uint32_t first, uint32_t count) const;
-  void halve(uint32_t first, uint32_t count);
+  Status halve(uint32_t first, uint32_t count);
 
   Span<const Box> boxes_;
   Array<uint32_t> order_;  /* the boxes of a node are a range of this */
@@ -6651,6 +6651,35 @@ Status linking_number(const Border& border, int32_t* number);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/linking.h ======== */
+
+/* ======== begin src/base/select.h ======== */
+/* Moves the least values of an array to its front, in no order: C. A. R. Hoare, "Algorithm 65: */
+/* Find", 1961, with the median of three. A run of bad pivots ends in a sort, so O(n log n) at worst */
+/* and O(n) as a rule. `less` must be a total order, as for sort(). */
+
+namespace wireskin {
+
+template <typename T, typename Less>
+Status select_least(Context& context, Span<T> values, size_t count, const Less& less) {
+  constexpr ptrdiff_t k_short = 16, k_long = 1 << 16;
+  T* first = values.begin();
+  T* end = values.end();
+  T* const cut = first + count;
+  for (int budget = 96; end - first > k_short && budget > 0; --budget) {
+    if (end - first > k_long) TRY(context.checkpoint());
+    T* middle = partition(first, end, less);
+    if (cut < middle) {
+      end = middle;
+    } else {
+      first = middle;
+    }
+  }
+  if (cut > first && cut < end) sort(Span<T>{first, static_cast<size_t>(end - first)}, less);
+  return {};
+}
+
+}  /* namespace wireskin */
+/* ======== end src/base/select.h ======== */
 
 /* ======== begin src/network/patch_mesh.h ======== */
 /* From cycles to one mesh: every cycle is projected to its plane, triangulated there, and the */
@@ -9166,7 +9195,7 @@ network::SmoothingOptions smoothing_of(const wsk_options& options, const Scale& 
 /* ======== begin src/mesh/mesh.cpp ======== */
 namespace wireskin::mesh {
 
-static constexpr size_t k_passed = 16384;  /* triangles or vertices between two checkpoints */
+static constexpr size_t k_per_checkpoint = 16384;  /* triangles or vertices */
 
 static Status fail_triangle(const char* sentence, size_t triangle) {
   Place place;
@@ -9190,7 +9219,7 @@ static Status check_indices(Context& context, uint32_t vertices, Span<const uint
                   place);
     }
     if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
-    if (t % k_passed == k_passed - 1) TRY(context.checkpoint());
+    if (t % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -9232,7 +9261,7 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
       (*twins)[arriving] = leaving_to[triangles[arriving]];
     }
     for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
-    if (v % k_passed == k_passed - 1) TRY(context.checkpoint());
+    if (v % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -9300,7 +9329,7 @@ static Status check_fans(Context& context, Span<const uint32_t> twins, Span<cons
       return fail_vertex("the triangles round the vertex do not form one fan", v);
     }
     on_border[v] = fan.borders == 1;
-    if (v % k_passed == k_passed - 1) TRY(context.checkpoint());
+    if (v % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -9344,7 +9373,7 @@ Status check_areas(Context& context, Span<const Vec3> positions, Span<const uint
     const Vec3& a = positions[triangles[t]];
     const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
     if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
-    if (t / 3 % k_passed == k_passed - 1) TRY(context.checkpoint());
+    if (t / 3 % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
   }
   return {};
 }
@@ -11686,7 +11715,7 @@ Status Cholesky::locate_entries() {
       lower_.index[k] = position[lower_.index[k]];
     }
     const uint32_t entries = end - lower_.start[supernodes_.first[s]];
-    TRY(count_work(k_entry_work * (size_t{supernodes_.height(s)} + entries)));
+    TRY(count_work(k_entry_work * (uint64_t{supernodes_.height(s)} + entries)));
   }
   return {};
 }
@@ -11748,8 +11777,8 @@ Status Cholesky::allocate_workspace() {
   return scratch_.resize(scratch_size());
 }
 
-Status Cholesky::count_work(size_t work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 21;
+Status Cholesky::count_work(uint64_t work) {
+  constexpr uint64_t k_work_per_checkpoint = uint64_t{1} << 21;
   work_ += work;
   if (work_ < k_work_per_checkpoint) return {};
   work_ = 0;
@@ -11878,7 +11907,7 @@ Status Cholesky::factor_one_task(const Task& task, const double* source) {
   for (uint32_t s = task.first; s <= task.root; ++s) {
     const uint32_t bad = factor_supernode(s, source, tools);
     if (bad != k_none) return refuse_column(s, bad);
-    const size_t height = supernodes_.height(s);
+    const uint64_t height = supernodes_.height(s);
     TRY(count_work(height * height * (supernodes_.width(s) + k_column_overhead) / 2));
   }
   return context_->checkpoint();
@@ -12042,7 +12071,7 @@ Status Cholesky::solve_forward(uint32_t s, uint32_t lanes) {
     const uint32_t after = j + columns;
     if (after < width) fetch(block + k_block * step, columns * step);
     solve_triangle(kernels_, triangle_at(block, step, columns, false), j, false, z);
-    TRY(count_work(size_t{height - j} * columns * lanes));
+    TRY(count_work(uint64_t{height - j} * columns * lanes));
     if (after == height) break;
     kernels_.update({round_up_rows(height - after), lanes, columns, block + columns, step,
                      z.value + j, z.step, 1, z.value + after, z.step, false, false},
@@ -12078,7 +12107,7 @@ Status Cholesky::solve_backward(uint32_t s, uint32_t lanes) {
                               z.value + after, z.step, z.value + j, z.step});
     }
     solve_triangle(kernels_, triangle_at(block, step, columns, true), j, true, z);
-    TRY(count_work(size_t{height - j} * columns * lanes));
+    TRY(count_work(uint64_t{height - j} * columns * lanes));
   }
   scatter_lanes(supernodes_.rows(s), width, z, y);
   return {};
@@ -17734,8 +17763,10 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   if (!status.ok() && status.code != Code::bad_mesh) return status;
   outcome->manifold = status.ok() && !surface->triangle.empty();
   count_flow(flow, reconstruction, settings, surface);
-  const Status areas =
-      mesh::check_areas(context, surface->position.span(), surface->triangle.span());
+  Status areas;
+  if (outcome->manifold) {
+    areas = mesh::check_areas(context, surface->position.span(), surface->triangle.span());
+  }
   if (!areas.ok() && areas.code != Code::bad_mesh) return areas;
   const bool measurable = outcome->manifold && areas.ok();
   TRY(judge_mesh(context, settings, measurable, *surface, outcome));
@@ -18600,9 +18631,11 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
   found.at_a = point_of_place(wires, edges.curve[a], found.a);
   found.at_b = point_of_place(wires, edges.curve[b], found.b);
   found.distance = length(found.at_a - found.at_b);
-  /* Drawings have less than one, with every line drawn many times a few. */
-  constexpr size_t k_most_for_a_sample = 16, k_always = 1024;
-  if (approaches->size() > k_most_for_a_sample * wires.samples() + k_always) {
+  /* Drawings have less than one for a sample, with every line drawn many times a few; but all lines */
+  /* of a lattice cross. */
+  constexpr uint64_t k_most_for_a_sample = 16;
+  const uint64_t pairs_of_curves = uint64_t{wires.curves()} * wires.curves() / 2;
+  if (approaches->size() > k_most_for_a_sample * wires.samples() + pairs_of_curves) {
     return fail(Code::bad_argument,
                 "the curves come within the snapping tolerance of each other in too many places: "
                 "give a smaller one");
@@ -18611,17 +18644,17 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
 }
 
 /* Rounding must not part boxes of edges that just reach each other. */
-static Vec3 widened(const Vec3& p, double margin) {
+static Vec3 slack_at(const Vec3& p, double margin) {
   constexpr double k_rounding = 1e-15;
-  const double own = (1.0 + 1e-9) * margin, sign = margin < 0.0 ? -k_rounding : k_rounding;
-  return {p.x + own + sign * std::fabs(p.x), p.y + own + sign * std::fabs(p.y),
-          p.z + own + sign * std::fabs(p.z)};
+  const double own = (1.0 + 1e-9) * margin;
+  return {own + k_rounding * std::fabs(p.x), own + k_rounding * std::fabs(p.y),
+          own + k_rounding * std::fabs(p.z)};
 }
 
 static Box box_of_edge(const Vec3& p, const Vec3& q, double margin) {
   const Vec3 low = {smaller(p.x, q.x), smaller(p.y, q.y), smaller(p.z, q.z)};
   const Vec3 high = {larger(p.x, q.x), larger(p.y, q.y), larger(p.z, q.z)};
-  return {widened(low, -margin), widened(high, margin)};
+  return {low - slack_at(low, margin), high + slack_at(high, margin)};
 }
 
 Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double reach,
@@ -18648,13 +18681,13 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
   size_t work = 0;
   for (uint32_t e = 0; e < box.size(); ++e) {
     TRY(tree.find(box[e], e, &near));
+    work += 8;
     for (const uint32_t other : near) {
       TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
+      if (++work < k_work_per_checkpoint) continue;
+      work = 0;
+      TRY(context.checkpoint());
     }
-    work += 8 + near.size();
-    if (work < k_work_per_checkpoint) continue;
-    work = 0;
-    TRY(context.checkpoint());
   }
   return {};
 }
@@ -25081,7 +25114,7 @@ Status find_inverted(Context& context, Span<const Vec3> position, Span<const uin
   TRY(find_twins(vertices, triangle, &twins));
   for (uint32_t t = 0; t < triangle.size() / 3; ++t) {
     if (faces_a_neighbour(mesh, twins.span(), t)) TRY(candidate.push(t));
-    if (t % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
+    if (t % k_triangles_per_checkpoint == k_triangles_per_checkpoint - 1) TRY(context.checkpoint());
   }
   if (candidate.empty()) return {};
   TRY(find_corners(vertices, triangle, &start, &corner));
@@ -26495,9 +26528,8 @@ Box BoxTree::bound(uint32_t first, uint32_t count) const {
   return box;
 }
 
-/* Hoare's selection (C. A. R. Hoare, "Algorithm 65: Find", 1961) of the median in the axis of the */
-/* greatest spread; equal places by index. */
-void BoxTree::halve(uint32_t first, uint32_t count) {
+/* Equal places by index. */
+Status BoxTree::halve(uint32_t first, uint32_t count) {
   Vec3 low = twice_centre(boxes_[order_[first]]), high = low;
   for (uint32_t i = first; i < first + count; ++i) {
     const Vec3 c = twice_centre(boxes_[order_[i]]);
@@ -26510,22 +26542,7 @@ void BoxTree::halve(uint32_t first, uint32_t count) {
     const double x = along(twice_centre(boxes_[a]), axis), y = along(twice_centre(boxes_[b]), axis);
     return x != y ? x < y : a < b;
   };
-  int64_t from = first, to = int64_t{first} + count - 1;
-  const int64_t median = first + count / 2;
-  while (from < to) {
-    const uint32_t pivot = order_[static_cast<size_t>(from + (to - from) / 2)];
-    int64_t i = from, j = to;
-    while (i <= j) {
-      while (before(order_[static_cast<size_t>(i)], pivot)) ++i;
-      while (before(pivot, order_[static_cast<size_t>(j)])) --j;
-      if (i > j) break;
-      const uint32_t other = order_[static_cast<size_t>(i)];
-      order_[static_cast<size_t>(i++)] = order_[static_cast<size_t>(j)];
-      order_[static_cast<size_t>(j--)] = other;
-    }
-    if (j < median) from = i;
-    if (median < i) to = j;
-  }
+  return select_least(order_.context(), order_.span().part(first, count), count / 2, before);
 }
 
 Status BoxTree::build(Span<const Box> boxes) {
@@ -26544,7 +26561,7 @@ Status BoxTree::build(Span<const Box> boxes) {
     const TreeRange range = todo.pop();
     node_[range.node] = bound(range.first, range.count);
     if (range.is_leaf()) continue;
-    halve(range.first, range.count);
+    TRY(halve(range.first, range.count));
     todo.push(range.upper());
     todo.push(range.lower());
     if ((work += range.count) < 65536) continue;
@@ -34456,26 +34473,6 @@ static bool key_less(const AxisKey& a, const AxisKey& b) {
   return a.key != b.key ? a.key < b.key : a.vertex < b.vertex;
 }
 
-/* Moves the `count` least keys to the front: Hoare's selection. A run of bad pivots ends in a sort. */
-static Status select_least(Context& context, Span<AxisKey> keys, size_t count) {
-  constexpr ptrdiff_t k_long = 1 << 16;
-  AxisKey* first = keys.begin();
-  AxisKey* end = keys.end();
-  AxisKey* const cut = first + count;
-  for (int budget = 96; end - first > 16 && budget > 0; --budget) {
-    if (end - first > k_long) TRY(context.checkpoint());
-    AxisKey* middle = partition(first, end, key_less);
-    if (cut < middle) {
-      end = middle;
-    } else {
-      first = middle;
-    }
-  }
-  if (cut > first && cut < end)
-    sort(Span<AxisKey>{first, static_cast<size_t>(end - first)}, key_less);
-  return {};
-}
-
 /* Orders the patches of a stretch along one axis of space and returns how many go to the left: */
 /* about half of all vertices. */
 static uint32_t halve_patches(const Stretch& s, int axis, Dissector* d) {
@@ -34569,7 +34566,7 @@ static Status split_patch(const Stretch& s, Dissector* d, uint32_t* middle, doub
     const uint32_t v = d->order[s.first + k];
     d->keys[k] = {along(position[v], axis), v};
   }));
-  TRY(select_least(context, d->keys.span().part(0, count), half));
+  TRY(select_least(context, d->keys.span().part(0, count), half, key_less));
   double greatest_left = d->keys[0].key, least_right = d->keys[half].key;
   TRY(in_parts(context, count, [&](size_t k) {
     const uint32_t v = d->keys[k].vertex;
@@ -36041,9 +36038,10 @@ static Status predict_euler_characteristic(Context& context, const network::Netw
 }
 
 static Status stop_on_fault(const Status& status) {
-  const bool no_memory = status.code == Code::out_of_memory || status.code == Code::memory_cap;
-  WIRESKIN_ASSERT(status.ok() || no_memory);
-  return no_memory ? status : Status{};
+  const bool stopped = status.code == Code::out_of_memory || status.code == Code::memory_cap ||
+                       status.code == Code::cancelled;
+  WIRESKIN_ASSERT(status.ok() || stopped);
+  return stopped ? status : Status{};
 }
 
 #endif
