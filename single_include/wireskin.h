@@ -15981,11 +15981,14 @@ struct Choice {
 enum class Verdict : uint8_t { wanted, accepted, unbounded, gone };
 
 /* Whether the creator's wall holds, together with those chosen before. */
-static Status try_void(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
-                       uint32_t creator, uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
+static Status try_void(Context& context, const Complex& complex, const CurveEdges& curves,
+                       const FlatCells& cells, uint32_t creator, uint32_t stamp, VoidTrial* trial,
+                       Verdict* verdict) {
   TRY(copy_sheet(trial->all, &trial->peeled));
+  TRY(context.checkpoint());
   add_to_sheet(complex, creator, &trial->peeled);
   peel(complex, curves, Protect::curves, &trial->peeled);
+  TRY(context.checkpoint());
   *verdict = Verdict::gone;
   if (trial->peeled.in[creator] == 0) return {};
   TRY(flood_patch(complex, curves, trial->peeled, creator, stamp, trial->mark.span(),
@@ -16020,7 +16023,7 @@ static Status try_voids(Context& context, const Complex& complex, const CurveEdg
     if (worth_it && tries < k_most_tries) {
       ++tries;
       TRY(context.checkpoint());
-      TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
+      TRY(try_void(context, complex, curves, cells, v.creator, i, &trial, &verdict));
     }
     if (verdict == Verdict::unbounded) TRY(unbounded->push(i));
     if (verdict != Verdict::wanted && (verdict != Verdict::accepted || !high)) continue;
@@ -16087,11 +16090,14 @@ static Status open_handles(Context& context, const Complex& complex, const Curve
   Sheet finless(context);
   Array<uint32_t> order(context);
   TRY(copy_sheet(walls, &finless));
+  TRY(context.checkpoint());
   peel(complex, curves, Protect::nothing, &finless);
+  TRY(context.checkpoint());
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (finless.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
+  TRY(context.checkpoint());
   for (const uint32_t t : order) {
     if (finless.in[t] == 0) continue;
     begin_removal(&walls);
@@ -16190,9 +16196,12 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
   for (const uint32_t v : topology->chosen) {
     add_to_sheet(complex, persistence.voids[v].creator, &walls);
   }
+  TRY(context.checkpoint());
   peel(complex, curves, Protect::curves, &walls);
+  TRY(context.checkpoint());
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));
+  TRY(context.checkpoint());
   TRY(open_handles(context, complex, curves, cells, topology));
   if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, cells, topology));
   return {};
@@ -17292,6 +17301,7 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
   TRY(mesh->patch.resize(corners / 3));
   mesh->position.clear();
   mesh->sample.clear();
+  TRY(mesh->position.context().checkpoint());
   for (uint32_t v = 0; v < samples.size(); ++v) {
     mesh->position.push_reserved(samples[v]);
     mesh->sample.push_reserved(v);
@@ -21331,18 +21341,22 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
   const CrossingGrid grid = choose_grid(position, triangle);
   Array<uint32_t> start(context), item(context), met(context);
   TRY(start.assign(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0));
+  TRY(context.checkpoint());
   TRY(met.assign(count, k_none));
   const auto range_of = [&](uint32_t t) {
     return cells_of(grid, box_of(position, &triangle[3 * size_t{t}]));
   };
-  for (uint32_t t = 0; t < count; ++t) {
-    each_cell(grid, range_of(t), [&](uint32_t cell) { ++start[cell]; });
-  }
+  TRY(in_parts(context, count, [&](size_t t) {
+    each_cell(grid, range_of(static_cast<uint32_t>(t)), [&](uint32_t cell) { ++start[cell]; });
+  }));
   TRY(item.resize(starts_from_counts(start.span())));
-  for (uint32_t t = 0; t < count; ++t) {
+  TRY(context.checkpoint());
+  TRY(in_parts(context, count, [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
     each_cell(grid, range_of(t), [&](uint32_t cell) { item[start[cell]++] = t; });
-  }
+  }));
   shift_starts_back(start.span());
+  TRY(context.checkpoint());
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
   uint32_t looked_at = 0;
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
@@ -22554,6 +22568,7 @@ struct LoopRefinement {
   Span<const uint32_t> name;  /* of the held points; empty: all are different */
   Array<uint8_t> copied;      /* of the held points: another has the same name */
   bool may_relax = true;
+  size_t work = 0;  /* edges and stars looked at since the last checkpoint */
 
   LoopRefinement(Context& context, Span<const uint32_t> loops, double wished, Array<Vec3>* points,
                  Array<uint32_t>* triangles)
@@ -22649,6 +22664,13 @@ static bool meets_and_steps(const LoopRefinement& r, uint32_t name, StarWalk* wa
   return false;
 }
 
+static Status pause_refining(LoopRefinement* r) {
+  constexpr size_t k_work_per_checkpoint = 2048;
+  if (++r->work < k_work_per_checkpoint) return {};
+  r->work = 0;
+  return r->suspect.context().checkpoint();
+}
+
 static bool is_copied(const LoopRefinement& r, uint32_t v) {
   return v < r.copied.size() && r.copied[v] != 0;
 }
@@ -22720,6 +22742,7 @@ static Status flip_suspects(LoopRefinement* r) {
   while (!r->suspect.empty()) {
     const uint32_t h = r->suspect.back();
     r->suspect.pop();
+    TRY(pause_refining(r));
     if (flips_left == 0 || !improves_by_flip(*r, h)) continue;
     TRY(flip_diamond(r, h));
     --flips_left;
@@ -22732,7 +22755,6 @@ static Status flip_everywhere(LoopRefinement* r) {
     if (r->twins[h] == k_none || r->twins[h] < h) continue;
     TRY(r->suspect.push(h));
     TRY(flip_suspects(r));
-    if (h % 16384 == 0) TRY(r->suspect.context().checkpoint());
   }
   return {};
 }
@@ -22793,11 +22815,11 @@ static Status split_longer(LoopRefinement* r, double level, size_t* splits) {
   *splits = 0;
   for (uint32_t h = 0; h < r->twins.size(); ++h) {
     if (r->position->size() >= r->most_points) break;
+    TRY(pause_refining(r));
     if (!(excess(*r, h) > level)) continue;
     TRY(split_diamond(r, h));
     TRY(flip_suspects(r));
     ++*splits;
-    if (*splits % 4096 == 0) TRY(r->suspect.context().checkpoint());
   }
   return {};
 }
@@ -22837,7 +22859,7 @@ static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
     const Vec3 step = centre_of(*r, star) - r->at(v);
     const Vec3 target = r->at(v) + (within_plane ? reject(step, stars->normal[v]) : step);
     if (may_move(*r, star, target)) (*r->position)[v] = target;
-    if (v % 16384 == 0) TRY(r->suspect.context().checkpoint());
+    TRY(pause_refining(r));
   }
   return {};
 }
@@ -22942,7 +22964,10 @@ static Status refine_all(LoopRefinement* r) {
   Stars stars(r->suspect.context());
   TRY(flip_everywhere(r));
   double level = 0.0;
-  for (uint32_t h = 0; h < r->twins.size(); ++h) level = larger(level, excess(*r, h));
+  for (uint32_t h = 0; h < r->twins.size(); ++h) {
+    TRY(pause_refining(r));
+    level = larger(level, excess(*r, h));
+  }
   size_t splits = 0;
   while (level * k_level > k_long_edge) {
     level *= k_level;

@@ -1,5 +1,6 @@
 #include "flow/crossings.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "num/minmax.h"
 #include "num/predicates.h"
@@ -222,18 +223,22 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
   const CrossingGrid grid = choose_grid(position, triangle);
   Array<uint32_t> start(context), item(context), met(context);
   TRY(start.assign(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0));
+  TRY(context.checkpoint());
   TRY(met.assign(count, k_none));
   const auto range_of = [&](uint32_t t) {
     return cells_of(grid, box_of(position, &triangle[3 * size_t{t}]));
   };
-  for (uint32_t t = 0; t < count; ++t) {
-    each_cell(grid, range_of(t), [&](uint32_t cell) { ++start[cell]; });
-  }
+  TRY(in_parts(context, count, [&](size_t t) {
+    each_cell(grid, range_of(static_cast<uint32_t>(t)), [&](uint32_t cell) { ++start[cell]; });
+  }));
   TRY(item.resize(starts_from_counts(start.span())));
-  for (uint32_t t = 0; t < count; ++t) {
+  TRY(context.checkpoint());
+  TRY(in_parts(context, count, [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
     each_cell(grid, range_of(t), [&](uint32_t cell) { item[start[cell]++] = t; });
-  }
+  }));
   shift_starts_back(start.span());
+  TRY(context.checkpoint());
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
   uint32_t looked_at = 0;
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {

@@ -343,6 +343,7 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
   TRY(mesh->patch.resize(corners / 3));
   mesh->position.clear();
   mesh->sample.clear();
+  TRY(mesh->position.context().checkpoint());
   for (uint32_t v = 0; v < samples.size(); ++v) {
     mesh->position.push_reserved(samples[v]);
     mesh->sample.push_reserved(v);

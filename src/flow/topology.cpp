@@ -141,11 +141,14 @@ struct Choice {
 enum class Verdict : uint8_t { wanted, accepted, unbounded, gone };
 
 // Whether the creator's wall holds, together with those chosen before.
-static Status try_void(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
-                       uint32_t creator, uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
+static Status try_void(Context& context, const Complex& complex, const CurveEdges& curves,
+                       const FlatCells& cells, uint32_t creator, uint32_t stamp, VoidTrial* trial,
+                       Verdict* verdict) {
   TRY(copy_sheet(trial->all, &trial->peeled));
+  TRY(context.checkpoint());
   add_to_sheet(complex, creator, &trial->peeled);
   peel(complex, curves, Protect::curves, &trial->peeled);
+  TRY(context.checkpoint());
   *verdict = Verdict::gone;
   if (trial->peeled.in[creator] == 0) return {};
   TRY(flood_patch(complex, curves, trial->peeled, creator, stamp, trial->mark.span(),
@@ -180,7 +183,7 @@ static Status try_voids(Context& context, const Complex& complex, const CurveEdg
     if (worth_it && tries < k_most_tries) {
       ++tries;
       TRY(context.checkpoint());
-      TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
+      TRY(try_void(context, complex, curves, cells, v.creator, i, &trial, &verdict));
     }
     if (verdict == Verdict::unbounded) TRY(unbounded->push(i));
     if (verdict != Verdict::wanted && (verdict != Verdict::accepted || !high)) continue;
@@ -247,11 +250,14 @@ static Status open_handles(Context& context, const Complex& complex, const Curve
   Sheet finless(context);
   Array<uint32_t> order(context);
   TRY(copy_sheet(walls, &finless));
+  TRY(context.checkpoint());
   peel(complex, curves, Protect::nothing, &finless);
+  TRY(context.checkpoint());
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
     if (finless.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
   }
   order_by_value(complex, &order);
+  TRY(context.checkpoint());
   for (const uint32_t t : order) {
     if (finless.in[t] == 0) continue;
     begin_removal(&walls);
@@ -350,9 +356,12 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
   for (const uint32_t v : topology->chosen) {
     add_to_sheet(complex, persistence.voids[v].creator, &walls);
   }
+  TRY(context.checkpoint());
   peel(complex, curves, Protect::curves, &walls);
+  TRY(context.checkpoint());
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));
+  TRY(context.checkpoint());
   TRY(open_handles(context, complex, curves, cells, topology));
   if (!options.open_walls) TRY(remove_open_walls(context, complex, curves, cells, topology));
   return {};

@@ -34,6 +34,7 @@ struct LoopRefinement {
   Span<const uint32_t> name;  // of the held points; empty: all are different
   Array<uint8_t> copied;      // of the held points: another has the same name
   bool may_relax = true;
+  size_t work = 0;  // edges and stars looked at since the last checkpoint
 
   LoopRefinement(Context& context, Span<const uint32_t> loops, double wished, Array<Vec3>* points,
                  Array<uint32_t>* triangles)
@@ -129,6 +130,13 @@ static bool meets_and_steps(const LoopRefinement& r, uint32_t name, StarWalk* wa
   return false;
 }
 
+static Status pause_refining(LoopRefinement* r) {
+  constexpr size_t k_work_per_checkpoint = 2048;
+  if (++r->work < k_work_per_checkpoint) return {};
+  r->work = 0;
+  return r->suspect.context().checkpoint();
+}
+
 static bool is_copied(const LoopRefinement& r, uint32_t v) {
   return v < r.copied.size() && r.copied[v] != 0;
 }
@@ -200,6 +208,7 @@ static Status flip_suspects(LoopRefinement* r) {
   while (!r->suspect.empty()) {
     const uint32_t h = r->suspect.back();
     r->suspect.pop();
+    TRY(pause_refining(r));
     if (flips_left == 0 || !improves_by_flip(*r, h)) continue;
     TRY(flip_diamond(r, h));
     --flips_left;
@@ -212,7 +221,6 @@ static Status flip_everywhere(LoopRefinement* r) {
     if (r->twins[h] == k_none || r->twins[h] < h) continue;
     TRY(r->suspect.push(h));
     TRY(flip_suspects(r));
-    if (h % 16384 == 0) TRY(r->suspect.context().checkpoint());
   }
   return {};
 }
@@ -273,11 +281,11 @@ static Status split_longer(LoopRefinement* r, double level, size_t* splits) {
   *splits = 0;
   for (uint32_t h = 0; h < r->twins.size(); ++h) {
     if (r->position->size() >= r->most_points) break;
+    TRY(pause_refining(r));
     if (!(excess(*r, h) > level)) continue;
     TRY(split_diamond(r, h));
     TRY(flip_suspects(r));
     ++*splits;
-    if (*splits % 4096 == 0) TRY(r->suspect.context().checkpoint());
   }
   return {};
 }
@@ -317,7 +325,7 @@ static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
     const Vec3 step = centre_of(*r, star) - r->at(v);
     const Vec3 target = r->at(v) + (within_plane ? reject(step, stars->normal[v]) : step);
     if (may_move(*r, star, target)) (*r->position)[v] = target;
-    if (v % 16384 == 0) TRY(r->suspect.context().checkpoint());
+    TRY(pause_refining(r));
   }
   return {};
 }
@@ -422,7 +430,10 @@ static Status refine_all(LoopRefinement* r) {
   Stars stars(r->suspect.context());
   TRY(flip_everywhere(r));
   double level = 0.0;
-  for (uint32_t h = 0; h < r->twins.size(); ++h) level = larger(level, excess(*r, h));
+  for (uint32_t h = 0; h < r->twins.size(); ++h) {
+    TRY(pause_refining(r));
+    level = larger(level, excess(*r, h));
+  }
   size_t splits = 0;
   while (level * k_level > k_long_edge) {
     level *= k_level;
