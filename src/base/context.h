@@ -72,7 +72,9 @@ class Context {
   }
 
   void release(void* memory, size_t count, size_t size) {
-    if (memory == nullptr) return;
+    // The count first: where a loop would set the elements, were there any, gcc 12 takes the pointer
+    // for one that cannot be null.
+    if (count == 0 || memory == nullptr) return;
     used_ -= count * size;
     allocator_.release(memory, count * size, allocator_.user);
   }
