@@ -395,12 +395,10 @@ static bool runs_counter_clockwise(const planar::PolygonMesh& mesh) {
 }
 #endif
 
-// Points in line within rounding have a triangle in the plane, where they are rounded again, and
-// none in space. The bound is that of every mesh, with room for splits of the chords.
-static Status check_areas(const PatchScratch& scratch, Span<const uint32_t> triangle) {
+// `at`: the place of a vertex. The bound is that of every mesh, with room for splits of the chords.
+template <typename At>
+static Status check_areas(Context& context, Span<const uint32_t> triangle, const At& at) {
   constexpr double k_least_area = 16.0 * mesh::k_least_height;
-  const size_t n = scratch.position.size();
-  const auto at = [&](uint32_t v) { return v < n ? scratch.position[v] : scratch.inner[v - n]; };
   for (size_t t = 0; t < triangle.size(); t += 3) {
     const Vec3 a = at(triangle[t + 1]) - at(triangle[t]), b = at(triangle[t + 2]) - at(triangle[t]);
     const Vec3 c = b - a;
@@ -409,10 +407,26 @@ static Status check_areas(const PatchScratch& scratch, Span<const uint32_t> tria
       return fail(Code::patch_folded, "the border of the patch encloses nothing");
     }
     if (t / 3 % k_triangles_per_checkpoint == k_triangles_per_checkpoint - 1) {
-      TRY(scratch.place.context().checkpoint());
+      TRY(context.checkpoint());
     }
   }
   return {};
+}
+
+static Status check_areas_in_space(const PatchScratch& scratch, Span<const uint32_t> triangle) {
+  const size_t n = scratch.position.size();
+  return check_areas(scratch.place.context(), triangle, [&](uint32_t v) {
+    return v < n ? scratch.position[v] : scratch.inner[v - n];
+  });
+}
+
+// Points in line within rounding have a triangle in the plane, where they are rounded again, and
+// none in space; points above each other have one in space, and in the plane a needle, whose
+// weights would drown those of all other triangles.
+static Status check_areas_of_flat(const PatchScratch& scratch) {
+  const Span<const uint32_t> triangle = scratch.planar.triangles.span();
+  TRY(check_areas(scratch.place.context(), triangle, [&](uint32_t v) { return scratch.place[v]; }));
+  return check_areas_in_space(scratch, triangle);
 }
 
 static bool may_be_meshed_otherwise(const Status& status) {
@@ -428,7 +442,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   scratch->spatial.raised = false;
   Status status = fit_plane(border, &plane);
   if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
-  if (status.ok()) status = check_areas(*scratch, scratch->planar.triangles.span());
+  if (status.ok()) status = check_areas_of_flat(*scratch);
   if (status.ok()) {
     WIRESKIN_ASSERT(runs_counter_clockwise(scratch->planar));
     TRY(builder->mesh->way.push(PatchWay::plane));
@@ -438,7 +452,7 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
   TRY(check_border(border));
   TRY(check_border_size(border, spacing));
   TRY(mesh_in_space(vertices, spacing, scratch));
-  TRY(check_areas(*scratch, scratch->spatial.triangle.span()));
+  TRY(check_areas_in_space(*scratch, scratch->spatial.triangle.span()));
   TRY(builder->mesh->way.push(PatchWay::minimal_area));
   if (scratch->spatial.coarse && builder->mesh->coarse_patches++ == 0) {
     builder->mesh->first_coarse_patch = patch;

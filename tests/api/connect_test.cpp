@@ -355,3 +355,55 @@ TEST_CASE("joints get numbers that the caller did not use") {
   }
   wsk_network_free(network);
 }
+
+TEST_CASE("a point above another leaves no needle in the plane of a patch") {
+  // A tube of four rings and four columns, whose lowest ring has one sample beside its column: the
+  // end of the column and that sample lie one above the other along the normal of a patch.
+  Scene scene;
+  const double x[] = {1, 0, -1, 0}, y[] = {0, 1, 0, -1};
+  for (int ring = 0; ring < 4; ++ring) {
+    Curve curve;
+    curve.closed = true;
+    for (int k = 0; k < 4; ++k) {
+      const double radius = ring == 0 && k == 0 ? 1.125 : 1.0;
+      curve.positions.insert(curve.positions.end(), {radius * x[k], radius * y[k], 1.0 * ring});
+      curve.normals.insert(curve.normals.end(), {x[k], y[k], 0});
+    }
+    curve.nodes.assign(4, WSK_NONE);
+    scene.curves.push_back(curve);
+  }
+  for (int k = 0; k < 4; ++k) {
+    Curve curve;
+    for (int ring = 0; ring < 4; ++ring) {
+      curve.positions.insert(curve.positions.end(), {x[k], y[k], 1.0 * ring});
+      curve.normals.insert(curve.normals.end(), {x[k], y[k], 0});
+    }
+    curve.nodes.assign(4, WSK_NONE);
+    scene.curves.push_back(curve);
+  }
+  const std::vector<wsk_curve> curves = scenes::curves_of(scene);
+  wsk_network* network = nullptr;
+  REQUIRE(wsk_connect(curves.data(), curves.size(), nullptr, &network, nullptr) == WSK_OK);
+  wsk_network_view joined;
+  wsk_network_get_view(network, &joined, sizeof joined);
+  for (int method = 0; method < WSK_METHOD_COUNT; ++method) {
+    CAPTURE(method);
+    wsk_options options;
+    wsk_options_init(&options, sizeof options);
+    options.method = static_cast<wsk_method>(method);
+    options.spacing = 0.57;
+    wsk_surface* surface = nullptr;
+    wsk_report report;
+    wsk_report_init(&report, sizeof report);
+    REQUIRE(wsk_build(joined.curves, joined.curve_count, &options, &surface, &report) == WSK_OK);
+    wsk_surface_view view;
+    wsk_surface_get_view(surface, &view, sizeof view);
+    double greatest = 0.0;
+    for (size_t i = 0; i < 3 * view.vertex_count; ++i) {
+      greatest = std::max(greatest, std::fabs(view.positions[i]));
+    }
+    CHECK(greatest < 6.0);  // the ends are closed by domes
+    wsk_surface_free(surface);
+  }
+  wsk_network_free(network);
+}
