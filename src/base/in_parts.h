@@ -46,6 +46,9 @@ class Pace {
  public:
   explicit Pace(Context& context) : context_(context) {}
 
+  // Counts only; for places that have no status to return.
+  void add(size_t steps) { steps_ += steps; }
+
   Status after(size_t steps = 1) {
     steps_ += steps;
     if (steps_ < k_steps_per_checkpoint) return {};

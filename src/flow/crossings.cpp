@@ -177,9 +177,11 @@ static CellRange cells_of(const CrossingGrid& grid, const Box& box) {
 template <typename Visit>
 static Status each_cell(const CrossingGrid& grid, const CellRange& range, Pace* pace,
                         const Visit& visit) {
+  const size_t layer =
+      size_t{range.high[0] - range.low[0] + 1} * (range.high[1] - range.low[1] + 1);
   for (uint32_t z = range.low[2]; z <= range.high[2]; ++z) {
+    TRY(pace->after(layer));
     for (uint32_t y = range.low[1]; y <= range.high[1]; ++y) {
-      TRY(pace->after(range.high[0] - range.low[0] + 1));
       for (uint32_t x = range.low[0]; x <= range.high[0]; ++x) {
         visit((z * grid.size[1] + y) * grid.size[0] + x);
       }
@@ -258,8 +260,7 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
     Status status;
     TRY(each_cell(grid, cells_of(grid, box), &pace, [&](uint32_t cell) {
       // Triangles that lie close are many in some cells.
-      if (status.ok()) status = pace.after((start[cell + 1] - start[cell]) / k_items_of_step);
-      if (!status.ok()) return;
+      pace.add((start[cell + 1] - start[cell]) / k_items_of_step);
       for (uint32_t i = start[cell]; i < start[cell + 1]; ++i) {
         const uint32_t other = item[i];
         if (other >= t || met[other] == t) continue;
