@@ -13,7 +13,7 @@ static constexpr double k_noise_off_plane = 3.0;  // times its standard deviatio
 static constexpr double k_most_noise = 10.0;      // times what is flat without noise
 static constexpr double k_exact = 0.02;  // of what counts as flat: planes are no matter of choice
 static constexpr uint8_t k_most_visits = 4;
-static constexpr size_t k_flood_per_checkpoint = size_t{1} << 16;
+static constexpr size_t k_flood_per_checkpoint = size_t{1} << 15;
 
 namespace {
 
