@@ -79,10 +79,9 @@ static bool segment_meets_flat(const Vec3& p, const Vec3& q, const Vec3& a, cons
   return inside;
 }
 
-// Whether the closed segment has a point in the closed triangle.
-static bool segment_meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
-                          const Vec3& c) {
-  const int p_side = sign_of(orient3d(a, b, c, p)), q_side = sign_of(orient3d(a, b, c, q));
+// Whether the closed segment has a point in the closed triangle, on whose sides its ends are.
+static bool segment_meets(const Vec3& p, int p_side, const Vec3& q, int q_side, const Vec3& a,
+                          const Vec3& b, const Vec3& c) {
   if (p_side * q_side > 0) return false;
   if (p_side == 0 && q_side == 0) return segment_meets_flat(p, q, a, b, c);
   const int ab = sign_of(orient3d(p, q, a, b)), bc = sign_of(orient3d(p, q, b, c));
@@ -101,6 +100,28 @@ static bool fold_over(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q
 
 static bool repeats_corner(const uint32_t* t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+// The sides of a triangle's plane that the corners of another are on; false where all are on one,
+// and the two have no point in common (T. Moeller, "A Fast Triangle-Triangle Intersection Test",
+// 1997).
+static bool reaches_plane(const Vec3* position, const uint32_t* triangle, const uint32_t* plane,
+                          int* side) {
+  const Vec3 &a = position[plane[0]], &b = position[plane[1]], &c = position[plane[2]];
+  for (int k = 0; k < 3; ++k) side[k] = sign_of(orient3d(a, b, c, position[triangle[k]]));
+  return side[0] == 0 || side[0] != side[1] || side[0] != side[2];
+}
+
+// Whether one of a triangle's edges meets another triangle.
+static bool edges_meet(const Vec3* position, const uint32_t* edges, const int* side,
+                       const uint32_t* triangle) {
+  const Vec3 &a = position[triangle[0]], &b = position[triangle[1]], &c = position[triangle[2]];
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t next = (k + 1) % 3;
+    const Vec3 &p = position[edges[k]], &q = position[edges[next]];
+    if (segment_meets(p, side[k], q, side[next], a, b, c)) return true;
+  }
+  return false;
 }
 
 bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_t* b) {
@@ -124,19 +145,18 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
     const uint32_t* const t[2] = {a, b};
     const uint32_t at[2] = {at_a, at_b};
     for (int k = 0; k < 2; ++k) {
-      const uint32_t* const s = t[k];
-      const uint32_t* const r = t[1 - k];
-      if (segment_meets(p[s[(at[k] + 1) % 3]], p[s[(at[k] + 2) % 3]], p[r[0]], p[r[1]], p[r[2]])) {
-        return true;
-      }
+      const Vec3 &u = p[t[k][(at[k] + 1) % 3]], &v = p[t[k][(at[k] + 2) % 3]];
+      const Vec3 &d = p[t[1 - k][0]], &e = p[t[1 - k][1]], &f = p[t[1 - k][2]];
+      const int u_side = sign_of(orient3d(d, e, f, u)), v_side = sign_of(orient3d(d, e, f, v));
+      // On one side of the other's plane, but for the corner that they share.
+      if (u_side * v_side > 0) return false;
+      if (segment_meets(u, u_side, v, v_side, d, e, f)) return true;
     }
     return false;
   }
-  for (uint32_t k = 0; k < 3; ++k) {
-    if (segment_meets(p[a[k]], p[a[(k + 1) % 3]], p[b[0]], p[b[1]], p[b[2]])) return true;
-    if (segment_meets(p[b[k]], p[b[(k + 1) % 3]], p[a[0]], p[a[1]], p[a[2]])) return true;
-  }
-  return false;
+  int side_of_a[3], side_of_b[3];
+  if (!reaches_plane(p, a, b, side_of_a) || !reaches_plane(p, b, a, side_of_b)) return false;
+  return edges_meet(p, a, side_of_a, b) || edges_meet(p, b, side_of_b, a);
 }
 
 // ---- All triangles ------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ inline constexpr double k_least_coordinate3 = 0x1p-100;
 
 // Shewchuk's bound for this determinant is (7 + 56 eps) eps times its permanent, which is at most
 // 6 X Y Z for the largest differences X, Y, Z; 42.5 eps leaves room for the rounding of the bound.
+// Where it is zero all four lie in a plane x, y or z = const., and so is the determinant, exactly.
 inline Filtered orient3d_filter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   constexpr double k_bound = 42.5 * 0x1p-53;
   const Vec3 u = b - a;
@@ -31,7 +32,7 @@ inline Filtered orient3d_filter(const Vec3& a, const Vec3& b, const Vec3& c, con
   const double x = larger(std::fabs(u.x), larger(std::fabs(v.x), std::fabs(w.x)));
   const double y = larger(std::fabs(u.y), larger(std::fabs(v.y), std::fabs(w.y)));
   const double z = larger(std::fabs(u.z), larger(std::fabs(v.z), std::fabs(w.z)));
-  return {det, std::fabs(det) > k_bound * (x * y * z)};
+  return {det, std::fabs(det) >= k_bound * (x * y * z)};
 }
 
 // Likewise (16 + 224 eps) eps times a permanent of at most 72 X Y Z M^2, M the largest of the

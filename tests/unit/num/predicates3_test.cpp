@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <random>
 
@@ -104,6 +105,22 @@ TEST_CASE("orient3d on grids of neighbouring doubles round a plane") {
   CHECK(tally.wrong == 0);
   CHECK(tally.exact > 500);
   CHECK(tally.lies > 50);
+}
+
+TEST_CASE("orient3d in planes of one coordinate: zero, and the filter knows") {
+  Tally tally;
+  std::mt19937 random(7);
+  const auto uniform = [&] { return static_cast<double>(random()) * 0x1p-31 - 1.0; };
+  for (int round = 0; round < 300; ++round) {
+    Vec3 p[4];
+    const double common = round % 2 == 0 ? uniform() : std::ldexp(uniform(), round - 150);
+    for (Vec3& q : p) q = {uniform(), uniform(), uniform()};
+    for (Vec3& q : p) (round % 3 == 0 ? q.x : round % 3 == 1 ? q.y : q.z) = common;
+    tally.orient(p[0], p[1], p[2], p[3]);
+  }
+  CHECK(tally.zeros == 300);
+  CHECK(tally.filter == 300);
+  CHECK(tally.wrong == 0);
 }
 
 TEST_CASE("insphere on points of one sphere but for their rounding") {
