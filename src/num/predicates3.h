@@ -68,6 +68,7 @@ inline Filtered insphere_filter(const Vec3& a, const Vec3& b, const Vec3& c, con
 
 // The stages behind the filters, the wide ones in pairs of doubles for the many cases that are
 // degenerate but for the rounding of their coordinates.
+Filtered orient3d_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 double orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Filtered insphere_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p);
 double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p);
@@ -76,7 +77,9 @@ double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 // the four points lie in one plane. About six times the signed volume.
 inline double orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Filtered filtered = orient3d_filter(a, b, c, d);
-  return filtered.certain ? filtered.value : orient3d_exact(a, b, c, d);
+  if (filtered.certain) return filtered.value;
+  const Filtered wide = orient3d_wide(a, b, c, d);
+  return wide.certain ? wide.value : orient3d_exact(a, b, c, d);
 }
 
 // Positive where p lies inside the sphere through a, b, c, d (positively oriented; the sign turns
