@@ -348,12 +348,15 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
     points += s.points - s.held;
     corners += s.corners;
   }
+  // What an earlier round has left is not worth moving.
+  mesh->position.clear();
+  mesh->sample.clear();
+  mesh->triangle.clear();
+  mesh->patch.clear();
   TRY(mesh->position.reserve(points));
   TRY(mesh->sample.reserve(points));
   TRY(mesh->triangle.resize(corners));
   TRY(mesh->patch.resize(corners / 3));
-  mesh->position.clear();
-  mesh->sample.clear();
   Context& context = mesh->position.context();
   TRY(context.checkpoint());
   for (uint32_t v = 0; v < samples.size(); ++v) {
