@@ -1,15 +1,19 @@
 // A pass over many things that may take longer than a caller wants to wait: body(i) for each index
-// below `count`, in order, with a checkpoint after every part of 4096. Short passes have none, so
-// that small calls are not slowed down; the stage that makes many of them has its own.
+// below `count`, in order, with a checkpoint after every part of 4096, or of another size for steps
+// that take next to no time. Short passes have none, so that small calls are not slowed down; the
+// stage that makes many of them has its own.
+//
+// Pace is the same for loops whose steps can fail or take unequal work: these say what they did.
 #pragma once
 
 #include "base/array.h"
 
 namespace wireskin {
 
-template <class Body>
+inline constexpr size_t k_steps_per_checkpoint = 4096;
+
+template <size_t k_part = k_steps_per_checkpoint, class Body>
 Status in_parts(Context& context, size_t count, const Body& body) {
-  constexpr size_t k_part = 4096;
   // The body stands here once, or the compiler would make a call of it.
   for (size_t i = 0; i < count;) {
     const bool whole = count - i >= k_part;
@@ -24,5 +28,37 @@ Status copy_in_parts(const Array<T>& source, Array<T>* target) {
   TRY(target->resize(source.size()));
   return in_parts(target->context(), source.size(), [&](size_t i) { (*target)[i] = source[i]; });
 }
+
+// Room for so many elements more. Growing by a half at least, as push() does, but for arrays so
+// large that it takes its time.
+template <typename T>
+Status make_room_in_parts(size_t more, Array<T>* array) {
+  const size_t room = array->capacity_bytes() / sizeof(T), size = array->size();
+  if (more <= room - size) return {};
+  Array<T> larger(array->context());
+  TRY(larger.reserve(size + more > room + room / 2 ? size + more : room + room / 2));
+  TRY(in_parts(array->context(), size, [&](size_t i) { larger.push_reserved((*array)[i]); }));
+  *array = static_cast<Array<T>&&>(larger);
+  return {};
+}
+
+class Pace {
+ public:
+  explicit Pace(Context& context) : context_(context) {}
+
+  // Counts only; for places that have no status to return.
+  void add(size_t steps) { steps_ += steps; }
+
+  Status after(size_t steps = 1) {
+    steps_ += steps;
+    if (steps_ < k_steps_per_checkpoint) return {};
+    steps_ = 0;
+    return context_.checkpoint();
+  }
+
+ private:
+  Context& context_;
+  size_t steps_ = 0;
+};
 
 }  // namespace wireskin

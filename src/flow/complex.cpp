@@ -9,8 +9,8 @@ namespace wireskin::flow {
 
 static constexpr double k_infinity = HUGE_VAL;
 
-static constexpr uint32_t k_per_checkpoint = 1u << 17;
-static constexpr uint32_t k_values_per_checkpoint = 1u << 13;  // each may take a microsecond
+static constexpr uint32_t k_per_checkpoint = 1u << 15;
+static constexpr uint32_t k_values_per_checkpoint = 1u << 12;  // each may take a microsecond
 
 // The corners of the face opposite to each corner, counter-clockwise seen from outside.
 static constexpr uint32_t k_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};

@@ -1,5 +1,6 @@
 #include "flow/critical.h"
 
+#include "base/in_parts.h"
 #include "flow/gabriel.h"
 
 namespace wireskin::flow {
@@ -30,6 +31,7 @@ static bool critical_triangle(const Complex& c, uint32_t t) {
 }
 
 Status find_critical_points(const Complex& complex, CriticalPoints* critical) {
+  Pace pace(critical->edge.context());
   critical->points = 0;
   critical->edge.clear();
   critical->triangle.clear();
@@ -38,12 +40,15 @@ Status find_critical_points(const Complex& complex, CriticalPoints* critical) {
     if (complex.same_as[i] == i) ++critical->points;
   }
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    TRY(pace.after());
     if (complex.edge_gabriel[e] != 0) TRY(critical->edge.push(e));
   }
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
     if (critical_triangle(complex, t)) TRY(critical->triangle.push(t));
   }
   for (uint32_t t = 0; t < complex.tet_count(); ++t) {
+    TRY(pace.after());
     if (critical_tet(complex, t)) TRY(critical->tet.push(t));
   }
   return {};

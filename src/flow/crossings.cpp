@@ -14,6 +14,9 @@ struct Box {
   Vec3 low, high;
 };
 
+// Of passes over the cells, most of which are empty.
+constexpr size_t k_cells_per_checkpoint = 1u << 18;
+
 // Cells of a uniform grid along each axis.
 struct CrossingGrid {
   Vec3 low;
@@ -76,10 +79,9 @@ static bool segment_meets_flat(const Vec3& p, const Vec3& q, const Vec3& a, cons
   return inside;
 }
 
-// Whether the closed segment has a point in the closed triangle.
-static bool segment_meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
-                          const Vec3& c) {
-  const int p_side = sign_of(orient3d(a, b, c, p)), q_side = sign_of(orient3d(a, b, c, q));
+// Whether the closed segment has a point in the closed triangle, on whose sides its ends are.
+static bool segment_meets(const Vec3& p, int p_side, const Vec3& q, int q_side, const Vec3& a,
+                          const Vec3& b, const Vec3& c) {
   if (p_side * q_side > 0) return false;
   if (p_side == 0 && q_side == 0) return segment_meets_flat(p, q, a, b, c);
   const int ab = sign_of(orient3d(p, q, a, b)), bc = sign_of(orient3d(p, q, b, c));
@@ -98,6 +100,28 @@ static bool fold_over(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q
 
 static bool repeats_corner(const uint32_t* t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+// The sides of a triangle's plane that the corners of another are on; false where all are on one,
+// and the two have no point in common (T. Moeller, "A Fast Triangle-Triangle Intersection Test",
+// 1997).
+static bool reaches_plane(const Vec3* position, const uint32_t* triangle, const uint32_t* plane,
+                          int* side) {
+  const Vec3 &a = position[plane[0]], &b = position[plane[1]], &c = position[plane[2]];
+  for (int k = 0; k < 3; ++k) side[k] = sign_of(orient3d(a, b, c, position[triangle[k]]));
+  return side[0] == 0 || side[0] != side[1] || side[0] != side[2];
+}
+
+// Whether one of a triangle's edges meets another triangle.
+static bool edges_meet(const Vec3* position, const uint32_t* edges, const int* side,
+                       const uint32_t* triangle) {
+  const Vec3 &a = position[triangle[0]], &b = position[triangle[1]], &c = position[triangle[2]];
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t next = (k + 1) % 3;
+    const Vec3 &p = position[edges[k]], &q = position[edges[next]];
+    if (segment_meets(p, side[k], q, side[next], a, b, c)) return true;
+  }
+  return false;
 }
 
 bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_t* b) {
@@ -121,19 +145,18 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
     const uint32_t* const t[2] = {a, b};
     const uint32_t at[2] = {at_a, at_b};
     for (int k = 0; k < 2; ++k) {
-      const uint32_t* const s = t[k];
-      const uint32_t* const r = t[1 - k];
-      if (segment_meets(p[s[(at[k] + 1) % 3]], p[s[(at[k] + 2) % 3]], p[r[0]], p[r[1]], p[r[2]])) {
-        return true;
-      }
+      const Vec3 &u = p[t[k][(at[k] + 1) % 3]], &v = p[t[k][(at[k] + 2) % 3]];
+      const Vec3 &d = p[t[1 - k][0]], &e = p[t[1 - k][1]], &f = p[t[1 - k][2]];
+      const int u_side = sign_of(orient3d(d, e, f, u)), v_side = sign_of(orient3d(d, e, f, v));
+      // On one side of the other's plane, but for the corner that they share.
+      if (u_side * v_side > 0) return false;
+      if (segment_meets(u, u_side, v, v_side, d, e, f)) return true;
     }
     return false;
   }
-  for (uint32_t k = 0; k < 3; ++k) {
-    if (segment_meets(p[a[k]], p[a[(k + 1) % 3]], p[b[0]], p[b[1]], p[b[2]])) return true;
-    if (segment_meets(p[b[k]], p[b[(k + 1) % 3]], p[a[0]], p[a[1]], p[a[2]])) return true;
-  }
-  return false;
+  int side_of_a[3], side_of_b[3];
+  if (!reaches_plane(p, a, b, side_of_a) || !reaches_plane(p, b, a, side_of_b)) return false;
+  return edges_meet(p, a, side_of_a, b) || edges_meet(p, b, side_of_b, a);
 }
 
 // ---- All triangles ------------------------------------------------------------------------------
@@ -172,95 +195,106 @@ static CellRange cells_of(const CrossingGrid& grid, const Box& box) {
 }
 
 template <typename Visit>
-static void each_cell(const CrossingGrid& grid, const CellRange& range, const Visit& visit) {
+static Status each_cell(const CrossingGrid& grid, const CellRange& range, Pace* pace,
+                        const Visit& visit) {
+  const size_t layer =
+      size_t{range.high[0] - range.low[0] + 1} * (range.high[1] - range.low[1] + 1);
   for (uint32_t z = range.low[2]; z <= range.high[2]; ++z) {
+    TRY(pace->after(layer));
     for (uint32_t y = range.low[1]; y <= range.high[1]; ++y) {
       for (uint32_t x = range.low[0]; x <= range.high[0]; ++x) {
         visit((z * grid.size[1] + y) * grid.size[0] + x);
       }
     }
   }
+  return {};
 }
 
 // Cells about as large as the mean triangle.
-static CrossingGrid choose_grid(Span<const Vec3> position, Span<const uint32_t> triangle) {
-  CrossingGrid grid;
+static Status choose_grid(Context& context, Span<const Vec3> position,
+                          Span<const uint32_t> triangle, CrossingGrid* grid) {
   Box all = box_of(position, triangle.data());
   double sum = 0.0;
-  for (size_t t = 0; t < triangle.size(); t += 3) {
-    const Box box = box_of(position, &triangle[t]);
+  TRY(in_parts(context, triangle.size() / 3, [&](size_t t) {
+    const Box box = box_of(position, &triangle[3 * t]);
     const Vec3 extent = box.high - box.low;
     sum += larger(extent.x, larger(extent.y, extent.z));
     all.low = {smaller(all.low.x, box.low.x), smaller(all.low.y, box.low.y),
                smaller(all.low.z, box.low.z)};
     all.high = {larger(all.high.x, box.high.x), larger(all.high.y, box.high.y),
                 larger(all.high.z, box.high.z)};
-  }
-  grid.low = all.low;
+  }));
+  grid->low = all.low;
   const Vec3 extent = all.high - all.low;
   const double greatest = larger(extent.x, larger(extent.y, extent.z));
-  if (!(sum > 0.0)) return grid;
+  if (!(sum > 0.0)) return {};
   const double cell = larger(sum / (static_cast<double>(triangle.size()) / 3.0), greatest / 200.0);
   const double along[3] = {extent.x, extent.y, extent.z};
-  grid.per_cell = 1.0 / cell;
-  for (int k = 0; k < 3; ++k) grid.size[k] = static_cast<uint32_t>(along[k] / cell) + 1;
-  return grid;
+  grid->per_cell = 1.0 / cell;
+  for (int k = 0; k < 3; ++k) grid->size[k] = static_cast<uint32_t>(along[k] / cell) + 1;
+  return {};
 }
 
-// Triangles that lie close are many in some cells, so the pairs that are looked at are counted.
-static Status pause_after_pairs(Context& context, uint32_t* pairs) {
-  constexpr uint32_t k_pairs_per_checkpoint = 1024;
-  if (++*pairs < k_pairs_per_checkpoint) return {};
-  *pairs = 0;
-  return context.checkpoint();
+// Turns the counts of cells into their starts.
+static Status start_cells(Context& context, Span<uint32_t> start) {
+  uint32_t sum = 0;
+  return in_parts<k_cells_per_checkpoint>(context, start.size(), [&](size_t i) {
+    const uint32_t count = start[i];
+    start[i] = sum;
+    sum += count;
+  });
 }
 
 Status find_crossings(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                       size_t most, Array<uint32_t>* pairs) {
+  constexpr size_t k_steps_of_pair = 4, k_items_of_step = 4;
   pairs->clear();
   if (triangle.empty()) return {};
   const uint32_t count = static_cast<uint32_t>(triangle.size() / 3);
-  const CrossingGrid grid = choose_grid(position, triangle);
+  CrossingGrid grid;
   Array<uint32_t> start(context), item(context), met(context);
-  TRY(start.assign(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0));
+  TRY(choose_grid(context, position, triangle, &grid));
+  TRY(start.resize(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1));
+  TRY(in_parts<k_cells_per_checkpoint>(context, start.size(), [&](size_t i) { start[i] = 0; }));
   TRY(context.checkpoint());
   TRY(met.assign(count, k_none));
   const auto range_of = [&](uint32_t t) {
     return cells_of(grid, box_of(position, &triangle[3 * size_t{t}]));
   };
-  TRY(in_parts(context, count, [&](size_t t) {
-    each_cell(grid, range_of(static_cast<uint32_t>(t)), [&](uint32_t cell) { ++start[cell]; });
-  }));
-  TRY(item.resize(starts_from_counts(start.span())));
+  Pace pace(context);
+  for (uint32_t t = 0; t < count; ++t) {
+    TRY(each_cell(grid, range_of(t), &pace, [&](uint32_t cell) { ++start[cell]; }));
+  }
+  TRY(start_cells(context, start.span()));
+  TRY(item.resize(start.back()));
   TRY(context.checkpoint());
-  TRY(in_parts(context, count, [&](size_t i) {
-    const uint32_t t = static_cast<uint32_t>(i);
-    each_cell(grid, range_of(t), [&](uint32_t cell) { item[start[cell]++] = t; });
-  }));
+  for (uint32_t t = 0; t < count; ++t) {
+    TRY(each_cell(grid, range_of(t), &pace, [&](uint32_t cell) { item[start[cell]++] = t; }));
+  }
   shift_starts_back(start.span());
   TRY(context.checkpoint());
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
-  uint32_t looked_at = 0;
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
     const Box box = box_of(position, &triangle[3 * size_t{t}]);
     Array<uint32_t>& found = *pairs;
     Status status;
-    each_cell(grid, cells_of(grid, box), [&](uint32_t cell) {
+    TRY(each_cell(grid, cells_of(grid, box), &pace, [&](uint32_t cell) {
+      // Triangles that lie close are many in some cells.
+      pace.add((start[cell + 1] - start[cell]) / k_items_of_step);
       for (uint32_t i = start[cell]; i < start[cell + 1]; ++i) {
         const uint32_t other = item[i];
         if (other >= t || met[other] == t) continue;
         met[other] = t;
         const uint32_t* const corners = &triangle[3 * size_t{other}];
         if (apart(box, box_of(position, corners))) continue;
-        if (status.ok()) status = pause_after_pairs(context, &looked_at);
+        if (status.ok()) status = pace.after(k_steps_of_pair);
         if (!status.ok()) return;
         if (!triangles_cross(position, corners, &triangle[3 * size_t{t}])) continue;
         if (status.ok()) status = found.push(other);
         if (status.ok()) status = found.push(t);
       }
-    });
+    }));
     TRY(status);
-    if (t % 4096 == 0) TRY(context.checkpoint());
   }
   return {};
 }

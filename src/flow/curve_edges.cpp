@@ -1,5 +1,7 @@
 #include "flow/curve_edges.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::flow {
 
 Status find_curve_edges(const Complex& complex, const Samples& samples, CurveEdges* curves) {
@@ -20,15 +22,14 @@ Status find_curve_edges(const Complex& complex, const Samples& samples, CurveEdg
       }
     }
   }
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+  return in_parts(curves->segment.context(), complex.triangle_count(), [&](size_t t) {
+    const uint32_t* const edge = &complex.triangle_edge[3 * t];
     for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t* const edge = &complex.triangle_edge[3 * size_t{t}];
       if (curves->on_curve(edge[k])) continue;
       if (!curves->on_curve(edge[(k + 1) % 3]) || !curves->on_curve(edge[(k + 2) % 3])) continue;
-      curves->chord_middle[edge[k]] = complex.triangle[3 * size_t{t} + k];
+      curves->chord_middle[edge[k]] = complex.triangle[3 * t + k];
     }
-  }
-  return {};
+  });
 }
 
 }  // namespace wireskin::flow

@@ -1,5 +1,6 @@
 #include "flow/delaunay.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "flow/delaunay_order.h"
 #include "num/predicates3.h"
@@ -125,8 +126,9 @@ static Status take_slots(DelaunayBuilder* b) {
   if (used + missing > b->most_tets) {
     return fail(Code::too_large, "the Delaunay triangulation has more tetrahedra than allowed");
   }
+  TRY(make_room_in_parts(missing, &b->tets));
   for (size_t i = 0; i < missing; ++i) {
-    TRY(b->tets.push({}));
+    b->tets.push_reserved({});
     TRY(b->mark.push(k_unseen));
   }
   for (size_t i = 0; i < b->outline.size(); ++i) {
@@ -260,13 +262,13 @@ static Status finish(Context& context, DelaunayBuilder* b, Span<const uint32_t> 
   TRY(place.assign(slots, 0));
   for (const uint32_t slot : b->vacant) place[slot] = k_none;
   uint32_t count = 0;
-  for (uint32_t slot = 0; slot < slots; ++slot) {
+  TRY(in_parts(context, slots, [&](size_t slot) {
     const bool kept = place[slot] != k_none && !is_ghost(b->tets[slot]);
     place[slot] = kept ? count++ : k_none;
-  }
+  }));
   TRY(context.checkpoint());
-  for (uint32_t slot = 0; slot < slots; ++slot) {
-    if (place[slot] == k_none) continue;
+  TRY(in_parts(context, slots, [&](size_t slot) {
+    if (place[slot] == k_none) return;
     Tetrahedron t = b->tets[slot];
     for (uint32_t i = 0; i < 4; ++i) {
       t.vertex[i] = order[t.vertex[i]];
@@ -274,7 +276,7 @@ static Status finish(Context& context, DelaunayBuilder* b, Span<const uint32_t> 
       t.across[i] = beyond == k_none ? k_none : 4 * beyond + (t.across[i] & 3);
     }
     b->tets[place[slot]] = t;
-  }
+  }));
   b->tets.shrink(count);
   delaunay->tets = static_cast<Array<Tetrahedron>&&>(b->tets);
   return {};

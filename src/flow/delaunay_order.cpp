@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "flow/radix_sort.h"
 #include "num/minmax.h"
@@ -74,7 +75,7 @@ static uint64_t place_round(const Vec3& p, uint64_t last_round) {
 }
 
 // The round, then the place along the curve.
-static void set_place_keys(Span<const Vec3> points, Span<BitsKey> keys) {
+static Status set_place_keys(Context& context, Span<const Vec3> points, Span<BitsKey> keys) {
   Vec3 low = points[0];
   Vec3 high = points[0];
   for (const Vec3& p : points) {
@@ -86,12 +87,13 @@ static void set_place_keys(Span<const Vec3> points, Span<BitsKey> keys) {
   const double step = extent > 0.0 ? k_cells / extent : 0.0;
   uint64_t last_round = 0;
   for (size_t rest = points.size(); rest > 512; rest >>= 3) ++last_round;
-  for (uint32_t i = 0; i < points.size(); ++i) {
+  return in_parts(context, points.size(), [&](size_t i) {
     const Vec3 cell = step * (points[i] - low);
     const uint64_t place = curve_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y),
                                        static_cast<uint32_t>(cell.z));
-    keys[i] = {place_round(points[i], last_round) << (3 * k_place_bits) | place, i};
-  }
+    keys[i] = {place_round(points[i], last_round) << (3 * k_place_bits) | place,
+               static_cast<uint32_t>(i)};
+  });
 }
 
 static bool place_before(const Vec3& p, const Vec3& q) {
@@ -123,7 +125,7 @@ Status delaunay_order(Context& context, Span<const Vec3> points, Array<uint32_t>
   TRY(same_as->resize(points.size()));
   order->clear();
   if (points.empty()) return {};
-  set_place_keys(points, keys.span());
+  TRY(set_place_keys(context, points, keys.span()));
   TRY(radix_sort(context, &keys));
   sort_cells(points, keys.span());
   for (const BitsKey& key : keys) {

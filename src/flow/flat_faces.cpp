@@ -1,6 +1,7 @@
 #include "flow/flat_faces.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 #include "flow/face_crossings.h"
 #include "num/minmax.h"
 
@@ -12,8 +13,7 @@ static constexpr double k_noise_off_plane = 3.0;  // times its standard deviatio
 static constexpr double k_most_noise = 10.0;      // times what is flat without noise
 static constexpr double k_exact = 0.02;  // of what counts as flat: planes are no matter of choice
 static constexpr uint8_t k_most_visits = 4;
-static constexpr size_t k_flood_per_checkpoint = size_t{1} << 16;
-static constexpr uint32_t k_triangles_per_pause = 1u << 16;
+static constexpr size_t k_flood_per_checkpoint = size_t{1} << 15;
 
 namespace {
 
@@ -369,7 +369,7 @@ static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, FacePl
 static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
                          const StraightLines& lines, double flat, Array<double>* area,
                          Array<uint32_t>* seeds) {
-  size_t looked_at = 0;
+  Pace pace(area->context());
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     FacePlane plane;
@@ -378,7 +378,7 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
-        if (++looked_at % k_triangles_per_pause == 0) TRY(area->context().checkpoint());
+        TRY(pace.after());
         if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
         if (!straight && !in_plane(complex, plane, t)) continue;
         (*area)[t] = length(cross_of_triangle(complex, t));
@@ -386,10 +386,9 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
       }
     }
   }
-  sort(seeds->span(), [&](uint32_t a, uint32_t b) {
+  return sort_in_parts(area->context(), seeds->span(), [&](uint32_t a, uint32_t b) {
     return (*area)[a] != (*area)[b] ? (*area)[a] > (*area)[b] : a < b;
   });
-  return {};
 }
 
 static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
@@ -426,6 +425,7 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
+  TRY(context.checkpoint());
   TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
     TRY(flood.pause());
@@ -442,11 +442,10 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
     TRY(add_face(complex, samples, curves, lines, plane, seed, &flood, faces));
   }
   if (faces->size() == 0) return {};
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (t % k_triangles_per_pause == 0) TRY(context.checkpoint());
+  return in_parts(context, complex.triangle_count(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
     if (is_line(complex, curves, lines, t)) faces->part[t] = FlatPart::line;
-  }
-  return {};
+  });
 }
 
 }  // namespace wireskin::flow

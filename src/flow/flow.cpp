@@ -1,5 +1,6 @@
 #include "flow/flow.h"
 
+#include "base/in_parts.h"
 #include "flow/bend_arcs.h"
 #include "num/minmax.h"
 
@@ -55,15 +56,15 @@ static Status count_components(Context& context, const Flow& flow, const Sheet& 
     return v;
   };
   *components = static_cast<uint32_t>(vertices);
-  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
-    if (walls.degree[e] == 0 && !flow.curves.on_curve(e)) continue;
+  TRY(in_parts(context, complex.edge_count(), [&](size_t e) {
+    if (walls.degree[e] == 0 && !flow.curves.on_curve(static_cast<uint32_t>(e))) return;
     ++edges;
-    const uint32_t a = root_of(complex.edge[2 * size_t{e}]);
-    const uint32_t b = root_of(complex.edge[2 * size_t{e} + 1]);
-    if (a == b) continue;
+    const uint32_t a = root_of(complex.edge[2 * e]);
+    const uint32_t b = root_of(complex.edge[2 * e + 1]);
+    if (a == b) return;
     parent[a < b ? b : a] = a < b ? a : b;
     --*components;
-  }
+  }));
   for (const uint8_t in : walls.in) triangles += in;
   *euler = vertices - edges + triangles;
   return {};

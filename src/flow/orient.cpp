@@ -1,5 +1,7 @@
 #include "flow/orient.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::flow {
 
 Status find_sides(const Complex& complex, const Persistence& persistence, const Topology3& topology,
@@ -12,11 +14,10 @@ Status find_sides(const Complex& complex, const Persistence& persistence, const 
     if (label != topology.label[outside]) number[label] = i + 1;
   }
   TRY(side->resize(2 * size_t{complex.triangle_count()}));
-  for (size_t i = 0; i < side->size(); ++i) {
+  return in_parts(side->context(), side->size(), [&](size_t i) {
     const uint32_t t = complex.triangle_side[i];
     (*side)[i] = number[topology.label[t == k_none ? outside : t]];
-  }
-  return {};
+  });
 }
 
 // Whether a triangle's stored order passes edge number k from its lesser vertex to its greater.
@@ -37,17 +38,19 @@ Status orient_walls(Context& context, const Complex& complex, const Sheet& walls
   Array<uint32_t> queue(context);
   TRY(queue.reserve(triangles));
   TRY(turned->assign(triangles, k_open));
-  for (uint32_t t = 0; t < triangles; ++t) {
+  TRY(in_parts(context, triangles, [&](size_t t) {
     // It is counter-clockwise seen from its second side; the lesser void is in front.
-    const uint32_t first = side[2 * size_t{t}], second = side[2 * size_t{t} + 1];
-    if (walls.in[t] == 0 || first == second) continue;
+    const uint32_t first = side[2 * t], second = side[2 * t + 1];
+    if (walls.in[t] == 0 || first == second) return;
     (*turned)[t] = first < second;
-    queue.push_reserved(t);
-  }
+    queue.push_reserved(static_cast<uint32_t>(t));
+  }));
+  Pace pace(context);
   size_t head = 0;
   for (uint32_t seed = 0; seed <= triangles; ++seed) {
     for (; head < queue.size(); ++head) {
       const uint32_t t = queue[head];
+      TRY(pace.after());
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
         if (walls.degree[e] != 2) continue;

@@ -1,5 +1,6 @@
 #include "flow/patches.h"
 
+#include "base/in_parts.h"
 #include "flow/orient.h"
 #include "flow/patch_loops.h"
 #include "num/minmax.h"
@@ -95,9 +96,11 @@ static Status straighten_border(const Complex& complex, const CurveEdges& curves
 static Status find_classes(const Complex& complex, const CurveEdges& curves, const Sheet& walls,
                            Classes* classes) {
   Array<uint32_t> patch(classes->of.context());
+  Pace pace(classes->of.context());
   TRY(classes->of.assign(complex.triangle_count(), k_none));
   TRY(classes->start.push(0));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
     if (walls.in[t] == 0 || classes->of[t] != k_none) continue;
     const uint32_t c = static_cast<uint32_t>(classes->kind.size());
     TRY(flood_patch(complex, curves, walls, t, c, classes->of.span(), &patch));
@@ -110,8 +113,10 @@ static Status find_classes(const Complex& complex, const CurveEdges& curves, con
 
 static Status find_ears(const Complex& complex, const CurveEdges& curves, Classes* classes,
                         Border* border) {
+  Pace pace(classes->of.context());
   for (uint32_t c = 0; c < classes->kind.size(); ++c) {
     TRY(toggle_triangles(complex, classes->part(c), border));
+    TRY(pace.after(border->edge.size()));
     bool any = false, left = false;
     for (const uint32_t e : border->edge) any = any || border->odd[e] != 0;
     TRY(straighten_border(complex, curves, border));
@@ -246,11 +251,13 @@ static Status add_patch(const Complex& complex, const CurveEdges& curves, const 
 static Status own_rest(const Complex& complex, const CurveEdges& curves, const Sheet& walls,
                        Array<uint32_t>* owner) {
   Array<uint32_t> queue(owner->context());
+  Pace pace(owner->context());
   TRY(queue.reserve(owner->size()));
   for (uint32_t t = 0; t < owner->size(); ++t) {
     if ((*owner)[t] != k_none) queue.push_reserved(t);
   }
   for (size_t i = 0; i < queue.size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{queue[i]} + k];
       if (curves.on_curve(e)) continue;
@@ -283,7 +290,9 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
   TRY(patches->loop_start.push(0));
   TRY(patches->run_start.push(0));
   TRY(start_loops(complex, &loops));
+  TRY(context.checkpoint());
   size_t taken = 0;
+  Pace pace(context);
   for (uint32_t c = 0; c < classes.kind.size(); ++c) {
     if (classes.kind[c] != Kind::patch) continue;
     const size_t first = patches->triangle.size();
@@ -293,6 +302,7 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
     TRY(add_patch(complex, curves, samples, side.span(), part, &loops, patches));
     TRY(patches->start.push(static_cast<uint32_t>(patches->triangle.size())));
     if (c % 256 == 0) TRY(context.checkpoint());
+    TRY(pace.after(part.size()));
   }
   return own_rest(complex, curves, topology.walls, &patches->owner);
 }

@@ -2,7 +2,8 @@
 
 #include <cstring>
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 #include "flow/radix_sort.h"
 #include "num/minmax.h"
 
@@ -54,20 +55,21 @@ static Status sort_triangles(Context& context, const Complex& complex, Span<cons
                              Array<BitsKey>* keys, Array<uint32_t>* order) {
   const uint32_t count = complex.triangle_count();
   TRY(keys->resize(count));
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t t = count - 1 - i;
+  TRY(in_parts(context, count, [&](size_t i) {
+    const uint32_t t = count - 1 - static_cast<uint32_t>(i);
     const bool flat = !turn.empty() && turn[t] == Pass::flat;
     const double value = complex.triangle_value[t];
     (*keys)[i] = {descending_bits(flat ? k_flat_share * value : value), t};
-  }
+  }));
   TRY(radix_sort(context, keys));
   TRY(order->reserve(count));
   constexpr Pass k_turns[4] = {Pass::first, Pass::by_radius, Pass::late, Pass::last};
   for (const Pass now : k_turns) {
     if (turn.empty() && now != Pass::by_radius) continue;
-    for (const BitsKey& key : *keys) {
-      if (turn.empty() || is_in_turn(turn[key.index], now)) order->push_reserved(key.index);
-    }
+    TRY(in_parts(context, count, [&](size_t i) {
+      const uint32_t t = (*keys)[i].index;
+      if (turn.empty() || is_in_turn(turn[t], now)) order->push_reserved(t);
+    }));
   }
   return {};
 }
@@ -84,17 +86,20 @@ static Void describe_void(const Complex& complex, uint32_t creator, uint32_t max
 static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
                          Span<const Pass> turn, Persistence* persistence) {
   Array<Void>& voids = persistence->voids;
+  Pace pace(voids.context());
   voids.clear();
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
     if (maximum_of[t] == k_none) continue;
     Void one = describe_void(complex, t, maximum_of[t]);
     one.held = !turn.empty() && turn[t] == Pass::last;
     if (one.held || one.ratio > k_least_ratio) TRY(voids.push(one));
   }
-  sort(voids.span(), [](const Void& a, const Void& b) {
+  const auto before = [](const Void& a, const Void& b) {
     if (a.held != b.held) return a.held;
     return a.ratio != b.ratio ? a.ratio > b.ratio : a.creator < b.creator;
-  });
+  };
+  TRY(sort_in_parts(voids.context(), voids.span(), before));
   TRY(persistence->void_of.assign(complex.triangle_count(), k_none));
   for (uint32_t i = 0; i < voids.size(); ++i) persistence->void_of[voids[i].creator] = i;
   return {};
@@ -102,7 +107,7 @@ static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of
 
 Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
                         Span<const Pass> turn) {
-  constexpr size_t k_triangles_per_checkpoint = 1u << 16;
+  Pace pace(context);
   const uint32_t outside = complex.tet_count();
   Array<BitsKey> keys(context);
   Array<uint32_t> order(context), maximum_of(context);
@@ -114,7 +119,7 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
   TRY(voids.maximum.resize(outside + 1));
   for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
   for (size_t i = 0; i < order.size(); ++i) {
-    if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
+    TRY(pace.after());
     const uint32_t t = order[i];
     uint32_t low = voids.root_of(complex.side_of(t, 0));
     uint32_t high = voids.root_of(complex.side_of(t, 1));

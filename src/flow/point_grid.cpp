@@ -1,5 +1,6 @@
 #include "flow/point_grid.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "num/minmax.h"
 
@@ -76,14 +77,19 @@ Status PointGrid::build(Span<const Vec3> points) {
   TRY(start_.assign(size_t{size_.x} * size_.y * size_.z + 1, 0));
   TRY(item_.resize(points.size()));
   TRY(axis_.resize(points.size()));
-  for (const Vec3& p : points) ++start_[index_of(p)];
+  Context& context = start_.context();
+  TRY(in_parts(context, points.size(), [&](size_t i) { ++start_[index_of(points[i])]; }));
   starts_from_counts(start_.span());
-  for (uint32_t i = 0; i < points.size(); ++i) {
-    item_[start_[index_of(points[i])]++] = {points[i], i};
-  }
+  TRY(in_parts(context, points.size(), [&](size_t i) {
+    item_[start_[index_of(points[i])]++] = {points[i], static_cast<uint32_t>(i)};
+  }));
   // Each start stands at the next one's place now.
   shift_starts_back(start_.span());
-  for (size_t c = 0; c + 1 < start_.size(); ++c) make_tree({start_[c], start_[c + 1]});
+  Pace pace(context);
+  for (size_t c = 0; c + 1 < start_.size(); ++c) {
+    make_tree({start_[c], start_[c + 1]});
+    TRY(pace.after(size_t{start_[c + 1]} - start_[c]));
+  }
   return {};
 }
 

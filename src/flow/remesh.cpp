@@ -1,5 +1,6 @@
 #include "flow/remesh.h"
 
+#include "base/in_parts.h"
 #include "flow/crossings.h"
 #include "mesh/loop_refine.h"
 
@@ -123,7 +124,9 @@ static Status find_shared_ears(const Flow& flow, const Reconstruction& r, Shared
   const Sheet& walls = r.topology.walls;
   TRY(ears->first.assign(complex.edge_count(), k_none));
   TRY(ears->left_out_for.assign(complex.triangle_count(), k_none));
+  Pace pace(ears->first.context());
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    TRY(pace.after());
     if (walls.degree[e] < 3 || flow.curves.on_curve(e)) continue;
     Ear found, ear;
     uint32_t flat = 0;
@@ -152,13 +155,15 @@ static Status gather_own(const Reconstruction& r, const SharedEars& ears, OwnTri
   const auto is_own = [&](uint32_t t) {
     return owner[t] != k_none && ears.left_out_for[t] == k_none;
   };
-  for (uint32_t t = 0; t < owner.size(); ++t) {
+  TRY(in_parts(own->start.context(), owner.size(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
     if (is_own(t)) ++own->start[owner[t]];
-  }
+  }));
   own->triangle.shrink(starts_from_counts(own->start.span()));
-  for (uint32_t t = 0; t < owner.size(); ++t) {
+  TRY(in_parts(own->start.context(), owner.size(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
     if (is_own(t)) own->triangle[own->start[owner[t]]++] = t;
-  }
+  }));
   shift_starts_back(own->start.span());
   for (uint32_t p = 0; p < r.patches.size(); ++p) {
     const Span<const uint32_t> part = own->of(p);
@@ -214,7 +219,9 @@ static Status cut_out(const Flow& flow, const Reconstruction& r, Span<const uint
   local->position.clear();
   local->sample.clear();
   for (uint32_t c = 0; c < corners; ++c) local->parent[c] = c;
+  Pace pace(local->parent.context());
   for (uint32_t i = 0; i < part.size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t t = part[i], u = across(flow, r, t, k);
       if (u == k_none) continue;
@@ -230,6 +237,7 @@ static Status cut_out(const Flow& flow, const Reconstruction& r, Span<const uint
     }
   }
   for (uint32_t i = 0; i < part.size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t stored = turned_corner(r, part[i], k);
       const uint32_t root = corner_root(local->parent.span(), 3 * i + stored);
@@ -322,12 +330,15 @@ static Status refine_one(Context& context, const Flow& flow, const Reconstructio
                        static_cast<uint32_t>(local->position.size()), static_cast<uint32_t>(held),
                        static_cast<uint32_t>(refined->corner.size()),
                        static_cast<uint32_t>(local->triangle.size())};
-  for (size_t v = 0; v < local->position.size(); ++v) {
-    TRY(refined->position.push(local->position[v]));
-    TRY(refined->sample.push(v < held ? local->sample[v] : k_none));
-  }
-  for (const uint32_t v : local->triangle) TRY(refined->corner.push(v));
-  return {};
+  TRY(make_room_in_parts(local->position.size(), &refined->position));
+  TRY(make_room_in_parts(local->position.size(), &refined->sample));
+  TRY(make_room_in_parts(local->triangle.size(), &refined->corner));
+  TRY(in_parts(context, local->position.size(), [&](size_t v) {
+    refined->position.push_reserved(local->position[v]);
+    refined->sample.push_reserved(v < held ? local->sample[v] : k_none);
+  }));
+  return in_parts(context, local->triangle.size(),
+                  [&](size_t i) { refined->corner.push_reserved(local->triangle[i]); });
 }
 
 static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh* mesh) {
@@ -337,13 +348,17 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
     points += s.points - s.held;
     corners += s.corners;
   }
+  // What an earlier round has left is not worth moving.
+  mesh->position.clear();
+  mesh->sample.clear();
+  mesh->triangle.clear();
+  mesh->patch.clear();
   TRY(mesh->position.reserve(points));
   TRY(mesh->sample.reserve(points));
   TRY(mesh->triangle.resize(corners));
   TRY(mesh->patch.resize(corners / 3));
-  mesh->position.clear();
-  mesh->sample.clear();
-  TRY(mesh->position.context().checkpoint());
+  Context& context = mesh->position.context();
+  TRY(context.checkpoint());
   for (uint32_t v = 0; v < samples.size(); ++v) {
     mesh->position.push_reserved(samples[v]);
     mesh->sample.push_reserved(v);
@@ -352,15 +367,15 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
   for (uint32_t p = 0; p < refined.slice.size(); ++p) {
     const Slice& s = refined.slice[p];
     const uint32_t first = static_cast<uint32_t>(mesh->position.size()) - s.held;
-    for (uint32_t i = s.held; i < s.points; ++i) {
-      mesh->position.push_reserved(refined.position[s.point + i]);
+    TRY(in_parts(context, s.points - s.held, [&](size_t i) {
+      mesh->position.push_reserved(refined.position[s.point + s.held + i]);
       mesh->sample.push_reserved(k_none);
-    }
-    for (uint32_t i = 0; i < s.corners; ++i, ++at) {
+    }));
+    TRY(in_parts(context, s.corners, [&](size_t i) {
       const uint32_t v = refined.corner[s.corner + i];
       mesh->triangle[at] = v < s.held ? refined.sample[s.point + v] : first + v;
-      mesh->patch[at / 3] = p;
-    }
+      mesh->patch[at++ / 3] = p;
+    }));
   }
   return {};
 }

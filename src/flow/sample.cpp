@@ -1,5 +1,6 @@
 #include "flow/sample.h"
 
+#include "base/in_parts.h"
 #include "flow/point_grid.h"
 #include "num/minmax.h"
 
@@ -419,16 +420,15 @@ static Status split_encroached(Context& context, const Arcs& arcs, double greate
 static Status weld_samples(Context& context, double tolerance, Samples* samples) {
   PointGrid grid(context);
   TRY(grid.build(samples->position.span()));
-  for (uint32_t i = 0; i < samples->position.size(); ++i) {
-    uint32_t first = i;
+  return in_parts(context, samples->position.size(), [&](size_t i) {
+    uint32_t first = static_cast<uint32_t>(i);
     const Vec3 p = samples->position[i];
     grid.any_near(p, tolerance, [&](uint32_t k) {
       if (k < first && length(samples->position[k] - p) <= tolerance) first = k;
       return false;
     });
     samples->position[i] = samples->position[first];
-  }
-  return {};
+  });
 }
 
 Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Samples* samples) {

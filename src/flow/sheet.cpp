@@ -1,5 +1,7 @@
 #include "flow/sheet.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::flow {
 
 Status start_sheet(const Complex& complex, Sheet* sheet) {
@@ -49,9 +51,14 @@ void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t 
 }
 
 // Until nothing is loose or, if wished, a curve has lost its last triangle.
-static void drain_loose(const Complex& complex, const CurveEdges& curves, Protect protect,
-                        bool until_bared, Sheet* sheet) {
+static Status drain_loose(const Complex& complex, const CurveEdges& curves, Protect protect,
+                          bool until_bared, Sheet* sheet) {
+  constexpr size_t k_work_per_checkpoint = 1u << 13;
   while (!sheet->loose.empty() && !(until_bared && sheet->bared)) {
+    if (++sheet->work >= k_work_per_checkpoint) {
+      sheet->work = 0;
+      TRY(sheet->loose.context().checkpoint());
+    }
     const uint32_t e = sheet->loose.back();
     sheet->loose.pop();
     if (sheet->degree[e] != 1) continue;
@@ -60,26 +67,29 @@ static void drain_loose(const Complex& complex, const CurveEdges& curves, Protec
       if (sheet->in[t] != 0) remove_triangle(complex, curves, t, sheet);
     }
   }
+  return {};
 }
 
-void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
-  drain_loose(complex, curves, protect, false, sheet);
+Status peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
+  return drain_loose(complex, curves, protect, false, sheet);
 }
 
-bool peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet) {
-  drain_loose(complex, curves, Protect::curves, true, sheet);
-  if (!sheet->bared) return true;
-  undo_removal(complex, sheet);
-  return false;
+Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet,
+                         bool* done) {
+  TRY(drain_loose(complex, curves, Protect::curves, true, sheet));
+  *done = !sheet->bared;
+  if (sheet->bared) undo_removal(complex, sheet);
+  return {};
 }
 
-void peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
+Status peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
   begin_removal(sheet);
   for (uint32_t e = 0; e < sheet->degree.size(); ++e) {
     if (sheet->degree[e] == 1) sheet->loose.push_reserved(e);
   }
-  peel_after(complex, curves, protect, sheet);
+  TRY(peel_after(complex, curves, protect, sheet));
   begin_removal(sheet);
+  return {};
 }
 
 void undo_removal(const Complex& complex, Sheet* sheet) {
@@ -89,10 +99,12 @@ void undo_removal(const Complex& complex, Sheet* sheet) {
 
 Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
                    uint32_t triangle, uint32_t value, Span<uint32_t> mark, Array<uint32_t>* patch) {
+  Pace pace(patch->context());
   patch->clear();
   TRY(patch->push(triangle));
   mark[triangle] = value;
   for (size_t i = 0; i < patch->size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{(*patch)[i]} + k];
       if (sheet.degree[e] != 2 || curves.by_curve(e)) continue;

@@ -17,6 +17,7 @@ struct Sheet {
   Array<uint32_t> loose;
   Array<uint32_t> removed;
   bool bared = false;  // the last removal took the last triangle from a curve
+  size_t work = 0;     // loose edges looked at since the last checkpoint
 
   explicit Sheet(Context& context)
       : in(context), degree(context), loose(context), removed(context) {}
@@ -30,16 +31,17 @@ Status copy_sheet(const Sheet& source, Sheet* sheet);
 void add_to_sheet(const Complex& complex, uint32_t triangle, Sheet* sheet);
 
 // Peels everything. Then `removed` is empty: this is not to be undone.
-void peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
+Status peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
 
 // Removes one triangle without peeling; several of these and one peel_after() make one removal.
 void begin_removal(Sheet* sheet);
 void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t triangle,
                      Sheet* sheet);
-void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
+Status peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
 // Likewise, the curves protected; where one would lose its last triangle, takes the whole removal
-// back at once and returns false.
-bool peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet);
+// back at once: then *done is false.
+Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet,
+                         bool* done);
 void undo_removal(const Complex& complex, Sheet* sheet);
 
 // The triangles that can be reached from one without crossing a curve, a chord, or an edge whose

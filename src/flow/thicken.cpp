@@ -1,5 +1,6 @@
 #include "flow/thicken.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "num/minmax.h"
 
@@ -86,10 +87,12 @@ Status find_tangents(const Samples& samples, SampleTangents* tangents) {
 static Status number_rooms(Context& context, const Complex& complex, Span<const uint32_t> owner,
                            Cells* cells) {
   Array<uint32_t> label(context), number(context);
+  Pace pace(context);
   TRY(label_rooms(complex, cells->sheet, &label));
   TRY(number.assign(label.size(), k_none));
   TRY(cells->room_of.resize(label.size()));
   for (uint32_t i = 0; i < label.size(); ++i) {
+    TRY(pace.after());
     uint32_t& room = number[label[i]];
     if (room == k_none) {
       room = static_cast<uint32_t>(cells->room.size());
@@ -136,9 +139,11 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves, con
                            const SampleTangents& tangents, const Topology3& topology,
                            Cells* cells) {
   Array<uint32_t>& queue = cells->triangle;
+  Pace pace(queue.context());
   TRY(cells->wall_of.assign(complex.triangle_count(), k_none));
   TRY(cells->start.push(0));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
     if (cells->sheet.in[t] == 0 || cells->wall_of[t] != k_none) continue;
     const uint32_t wall = static_cast<uint32_t>(cells->wall.size());
     const size_t first = queue.size();
@@ -146,6 +151,7 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves, con
     TRY(queue.push(t));
     cells->wall_of[t] = wall;
     for (size_t i = first; i < queue.size(); ++i) {
+      TRY(pace.after());
       value = larger(value, complex.triangle_value[queue[i]]);
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t e = complex.triangle_edge[3 * size_t{queue[i]} + k];
@@ -190,11 +196,11 @@ static Status find_cells(Context& context, const Complex& complex, const CurveEd
                          const FlatCells& flat, const Persistence& persistence,
                          const SampleTangents& tangents, const Topology3& topology, Cells* cells) {
   TRY(start_sheet(complex, &cells->sheet));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    const uint32_t v = persistence.void_of[t];
+  TRY(in_parts(context, complex.triangle_count(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i), v = persistence.void_of[t];
     if (persistence.creator[t] == 0 || v != k_none) add_to_sheet(complex, t, &cells->sheet);
-  }
-  peel(complex, curves, Protect::curves, &cells->sheet);
+  }));
+  TRY(peel(complex, curves, Protect::curves, &cells->sheet));
   TRY(number_rooms(context, complex, topology.label.span(), cells));
   TRY(number_walls(complex, curves, flat, tangents, topology, cells));
   TRY(link_rooms(cells));
@@ -214,10 +220,12 @@ static bool stays(const Cells& cells, const Wall& wall) {
 }
 
 // Figure 17: takes out what would change the topology, until nothing does.
-static void take_back(Array<uint8_t>* added, Cells* cells) {
+static Status take_back(Array<uint8_t>* added, Cells* cells) {
+  Pace pace(added->context());
   for (bool changed = true; changed;) {
     changed = false;
     for (uint32_t i = 0; i < cells->wall.size(); ++i) {
+      TRY(pace.after());
       const Wall& wall = cells->wall[i];
       if ((*added)[i] != 0 && !stays(*cells, wall)) {
         (*added)[i] = 0;
@@ -231,6 +239,7 @@ static void take_back(Array<uint8_t>* added, Cells* cells) {
       }
     }
   }
+  return {};
 }
 
 static Status fill_rooms(const Complex& complex, const Persistence& persistence,
@@ -247,7 +256,7 @@ static Status fill_rooms(const Complex& complex, const Persistence& persistence,
     const Wall& wall = cells->wall[i];
     (*added)[i] = !wall.present && wall.addable && wall.value < limit;
   }
-  take_back(added, cells);
+  TRY(take_back(added, cells));
   *any = false;
   for (const Room& r : cells->room) *any = *any || r.filled;
   return {};
@@ -329,6 +338,7 @@ Status thicken_and_prune(Context& context, const Complex& complex, const CurveEd
   const uint32_t outside_label = topology->label[complex.tet_count()];
   TRY(empty_rooms(context, outside_label, options.inside_first, &cells, &opened));
   begin_removal(&topology->walls);
+  Pace pace(context);
   for (uint32_t i = 0; i < cells.wall.size(); ++i) {
     for (uint32_t k = cells.start[i]; k < cells.start[i + 1]; ++k) {
       if (opened[i] != 0) {
@@ -337,8 +347,9 @@ Status thicken_and_prune(Context& context, const Complex& complex, const CurveEd
         add_to_sheet(complex, cells.triangle[k], &topology->walls);
       }
     }
+    TRY(pace.after(cells.start[i + 1] - cells.start[i]));
   }
-  peel(complex, curves, Protect::curves, &topology->walls);
+  TRY(peel(complex, curves, Protect::curves, &topology->walls));
   return label_rooms(complex, topology->walls, &topology->label);
 }
 

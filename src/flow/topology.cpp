@@ -1,6 +1,7 @@
 #include "flow/topology.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 
 namespace wireskin::flow {
 
@@ -19,20 +20,22 @@ Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* 
   const uint32_t outside = complex.tet_count();
   TRY(label->resize(size_t{outside} + 1));
   for (uint32_t i = 0; i <= outside; ++i) (*label)[i] = i;
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (sheet.in[t] != 0) continue;
+  TRY(in_parts(label->context(), complex.triangle_count(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
+    if (sheet.in[t] != 0) return;
     const uint32_t a = find_label(label->span(), complex.side_of(t, 0));
     const uint32_t b = find_label(label->span(), complex.side_of(t, 1));
     if (a < b) (*label)[b] = a;
     if (b < a) (*label)[a] = b;
-  }
-  for (uint32_t i = 0; i <= outside; ++i) (*label)[i] = find_label(label->span(), i);
-  return {};
+  }));
+  return in_parts(label->context(), label->size(), [&](size_t i) {
+    (*label)[i] = find_label(label->span(), static_cast<uint32_t>(i));
+  });
 }
 
 // By the radii at which triangles are swallowed, greatest first.
-static void order_by_value(const Complex& complex, Array<uint32_t>* triangles) {
-  sort(triangles->span(), [&](uint32_t a, uint32_t b) {
+static Status order_by_value(const Complex& complex, Array<uint32_t>* triangles) {
+  return sort_in_parts(triangles->context(), triangles->span(), [&](uint32_t a, uint32_t b) {
     const double fa = complex.triangle_value[a], fb = complex.triangle_value[b];
     return fa != fb ? fa > fb : a > b;
   });
@@ -119,17 +122,18 @@ struct VoidTrial {
 
 }  // namespace
 
-// The destroyers and the walls of the voids chosen.
+static Status add_destroyers(const Complex& complex, const Persistence& persistence, Sheet* sheet) {
+  return in_parts(sheet->in.context(), complex.triangle_count(), [&](size_t t) {
+    if (persistence.creator[t] == 0) add_to_sheet(complex, static_cast<uint32_t>(t), sheet);
+  });
+}
+
 static Status start_trial(const Complex& complex, const Persistence& persistence,
-                          Span<const uint32_t> chosen, VoidTrial* trial) {
+                          VoidTrial* trial) {
   TRY(start_sheet(complex, &trial->all));
   TRY(trial->mark.assign(complex.triangle_count(), k_none));
   TRY(trial->odd.assign(complex.edge_count(), 0));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial->all);
-  }
-  for (const uint32_t v : chosen) add_to_sheet(complex, persistence.voids[v].creator, &trial->all);
-  return {};
+  return add_destroyers(complex, persistence, &trial->all);
 }
 
 struct Choice {
@@ -147,7 +151,7 @@ static Status try_void(Context& context, const Complex& complex, const CurveEdge
   TRY(copy_sheet(trial->all, &trial->peeled));
   TRY(context.checkpoint());
   add_to_sheet(complex, creator, &trial->peeled);
-  peel(complex, curves, Protect::curves, &trial->peeled);
+  TRY(peel(complex, curves, Protect::curves, &trial->peeled));
   TRY(context.checkpoint());
   *verdict = Verdict::gone;
   if (trial->peeled.in[creator] == 0) return {};
@@ -173,7 +177,7 @@ static Status try_voids(Context& context, const Complex& complex, const CurveEdg
   bool waiting = false;
   *untried = 0;
   for (const Need n : cells.need) waiting = waiting || n == Need::waiting;
-  TRY(start_trial(complex, persistence, {}, &trial));
+  TRY(start_trial(complex, persistence, &trial));
   for (uint32_t i = 0; i < persistence.voids.size() && choices->size() < wished; ++i) {
     const Void& v = persistence.voids[i];
     const bool high = v.ratio >= least_ratio;
@@ -243,6 +247,18 @@ static bool may_go(const Complex& complex, const FlatCells& cells, const Topolog
          topology.label[complex.side_of(triangle, 1)];
 }
 
+// Those of a set that may go.
+static Status list_removable(const Complex& complex, const FlatCells& cells,
+                             const Topology3& topology, Span<const uint8_t> in,
+                             Array<uint32_t>* triangles) {
+  Pace pace(triangles->context());
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
+    if (in[t] != 0 && may_go(complex, cells, topology, t)) TRY(triangles->push(t));
+  }
+  return order_by_value(complex, triangles);
+}
+
 // Opens handles: triangles with one void on both sides that are part of no fin.
 static Status open_handles(Context& context, const Complex& complex, const CurveEdges& curves,
                            const FlatCells& cells, Topology3* topology) {
@@ -251,22 +267,19 @@ static Status open_handles(Context& context, const Complex& complex, const Curve
   Array<uint32_t> order(context);
   TRY(copy_sheet(walls, &finless));
   TRY(context.checkpoint());
-  peel(complex, curves, Protect::nothing, &finless);
+  TRY(peel(complex, curves, Protect::nothing, &finless));
   TRY(context.checkpoint());
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (finless.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
-  }
-  order_by_value(complex, &order);
+  TRY(list_removable(complex, cells, *topology, finless.in.span(), &order));
   TRY(context.checkpoint());
   for (const uint32_t t : order) {
     if (finless.in[t] == 0) continue;
     begin_removal(&walls);
     remove_triangle(complex, curves, t, &walls);
-    if (!peel_unless_bared(complex, curves, &walls)) continue;
-    if (walls.removed.size() > 1000) TRY(context.checkpoint());
+    bool done = false;
+    TRY(peel_unless_bared(complex, curves, &walls, &done));
     begin_removal(&finless);
     for (const uint32_t gone : walls.removed) remove_triangle(complex, curves, gone, &finless);
-    peel_after(complex, curves, Protect::nothing, &finless);
+    TRY(peel_after(complex, curves, Protect::nothing, &finless));
   }
   return {};
 }
@@ -292,8 +305,10 @@ static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, 
   wall->clear();
   *whole = true;
   settled[triangle] = Settled::now;
+  Pace pace(wall->context());
   TRY(wall->push(triangle));
   for (size_t i = 0; i < wall->size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{(*wall)[i]} + k];
       if (walls.degree[e] != 2 || curves.by_curve(e)) continue;
@@ -314,31 +329,24 @@ static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, 
 // border is closed has no neighbour that it could join. So each is looked at once.
 static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
                                 const FlatCells& cells, Topology3* topology) {
-  constexpr size_t k_work_per_checkpoint = 1u << 14;
   Sheet& walls = topology->walls;
+  Pace pace(context);
   Array<uint32_t> order(context), wall(context);
   Array<Settled> settled(context);
   TRY(settled.assign(complex.triangle_count(), Settled::no));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (walls.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
-  }
-  order_by_value(complex, &order);
-  size_t work = 0;
+  TRY(list_removable(complex, cells, *topology, walls.in.span(), &order));
   for (const uint32_t seed : order) {
     if (walls.in[seed] == 0 || settled[seed] != Settled::no) continue;
     bool whole = false;
     TRY(flood_unsettled(complex, curves, walls, seed, settled.span(), &wall, &whole));
-    work += wall.size();
     if (whole && has_open_border(complex, curves, walls, wall.span())) {
       begin_removal(&walls);
       for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
-      peel_unless_bared(complex, curves, &walls);
-      work += walls.removed.size();
+      bool done = false;
+      TRY(peel_unless_bared(complex, curves, &walls, &done));
     }
     for (const uint32_t t : wall) settled[t] = Settled::yes;
-    if (work < k_work_per_checkpoint) continue;
-    TRY(context.checkpoint());
-    work = 0;
+    TRY(pace.after(wall.size()));
   }
   return {};
 }
@@ -350,14 +358,12 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
                    &topology->untried));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &walls);
-  }
+  TRY(add_destroyers(complex, persistence, &walls));
   for (const uint32_t v : topology->chosen) {
     add_to_sheet(complex, persistence.voids[v].creator, &walls);
   }
   TRY(context.checkpoint());
-  peel(complex, curves, Protect::curves, &walls);
+  TRY(peel(complex, curves, Protect::curves, &walls));
   TRY(context.checkpoint());
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));

@@ -16,7 +16,9 @@ Status corner_normals(const Cut& cut, uint32_t vertices, Span<const Vec3> normal
   Array<uint8_t> parted(result->corner.context());
   TRY(parted.assign(vertices, 0));
   for (uint32_t c = vertices; c < cut.vertices(); ++c) parted[cut.origin[c]] = 1;
+  Pace pace(result->corner.context());
   for (uint32_t h = 0; h < cut.triangle.size(); ++h) {
+    TRY(pace.after());
     const uint32_t copy = cut.triangle[h];
     if (!parted[cut.origin[copy]]) continue;
     TRY(result->corner.push(h));
@@ -44,7 +46,7 @@ static Status find_manifold_twins(uint32_t vertices, Span<const uint32_t> triang
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(to.assign(vertices, EdgeCount{}));
   TRY(twins->resize(triangles.size()));
-  for (uint32_t v = 0; v < vertices; ++v) {
+  return in_parts(context, vertices, [&](size_t v) {
     const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
     for (const uint32_t h : leaving) {
       const uint32_t arriving = previous_half_edge(h);
@@ -60,9 +62,7 @@ static Status find_manifold_twins(uint32_t vertices, Span<const uint32_t> triang
     for (const uint32_t h : leaving) {
       to[triangles[next_half_edge(h)]] = to[triangles[previous_half_edge(h)]] = EdgeCount{};
     }
-    if (v % 65536 == 65535) TRY(context.checkpoint());
-  }
-  return {};
+  });
 }
 
 static Vec3 face_normal(Span<const Vec3> positions, Span<const uint32_t> triangles, uint32_t h) {
@@ -80,16 +80,15 @@ Status find_crease_normals(Context& context, Span<const Vec3> positions,
   Cut cut(context);
   TRY(find_manifold_twins(vertices, triangles, &twins));
   TRY(crease.assign(triangles.size(), 0));
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    if (h % 65536 == 65535) TRY(context.checkpoint());
-    const uint32_t twin = twins[h];
-    if (twin == k_none || twin < h) continue;
-    if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
+  TRY(in_parts(context, triangles.size(), [&](size_t i) {
+    const uint32_t h = static_cast<uint32_t>(i), twin = twins[h];
+    if (twin == k_none || twin < h) return;
+    if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) return;
     const Vec3 here = face_normal(positions, triangles, h);
     const Vec3 there = face_normal(positions, triangles, twin);
-    if (here == Vec3{} || there == Vec3{}) continue;  // a triangle without area turns nowhere
+    if (here == Vec3{} || there == Vec3{}) return;  // a triangle without area turns nowhere
     crease[h] = crease[twin] = dot(here, there) < k_crease_cosine;
-  }
+  }));
   TRY(cut_open(vertices, triangles, twins.span(), crease.span(), &cut));
   TRY(place.resize(cut.vertices()));
   TRY(normal.resize(cut.vertices()));

@@ -1,5 +1,7 @@
 #include "mesh/cut.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::mesh {
 
 // The clockwise-most corner of the sector of corner h, a half-edge that leaves its vertex: cuts and
@@ -21,8 +23,9 @@ Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const ui
   TRY(cut->triangle.assign(triangles.size(), k_none));
   TRY(cut->origin.resize(vertices));
   for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
+  Pace pace(cut->origin.context());
   for (uint32_t h = 0; h < triangles.size(); ++h) {
-    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
+    TRY(pace.after());
     if (cut->triangle[h] != k_none) continue;
     const uint32_t v = triangles[h];
     uint32_t copy = v;

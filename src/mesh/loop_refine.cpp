@@ -331,7 +331,7 @@ static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
 }
 
 // Sizes were made from the two ends of an edge only; here every neighbour has its say.
-static void grade_sizes(LoopRefinement* r, const Stars& stars) {
+static Status grade_sizes(LoopRefinement* r, const Stars& stars) {
   for (uint32_t v = r->rim; v < r->size.size(); ++v) {
     double least = 0.0, most = DBL_MAX;
     for (uint32_t k = stars.start[v]; k < stars.start[v + 1]; ++k) {
@@ -341,14 +341,16 @@ static void grade_sizes(LoopRefinement* r, const Stars& stars) {
       most = smaller(most, r->size[u] + reach);
     }
     r->size[v] = least > most ? 0.5 * (least + most) : smaller(larger(r->spacing, least), most);
+    TRY(pause_refining(r));
   }
+  return {};
 }
 
 static Status relax_and_flip(LoopRefinement* r, int tangential, int free, Stars* stars) {
   if (!r->may_relax) tangential = free = 0;
   for (int sweep = 0; sweep < tangential; ++sweep) TRY(relax_inner(r, true, stars));
   for (int sweep = 0; sweep < free; ++sweep) TRY(relax_inner(r, false, stars));
-  if (r->may_relax) grade_sizes(r, *stars);
+  if (r->may_relax) TRY(grade_sizes(r, *stars));
   return flip_everywhere(r);
 }
 

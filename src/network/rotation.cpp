@@ -164,7 +164,9 @@ static Status sort_at_border(const Graph& graph, uint32_t node, uint32_t left,
                              Span<Leaving> leaving, Array<Leaving>* kept) {
   TRY(kept->copy(leaving));
   for (const double part : k_parts) {
-    if (!sort_by_part(graph, node, part, leaving).ok() || !all_differ(leaving)) continue;
+    const Status status = sort_by_part(graph, node, part, leaving);
+    if (!status.ok() && status.code != Code::tangent_normal) return status;
+    if (!status.ok() || !all_differ(leaving)) continue;
     const BorderSide side = border_side(graph, leaving);
     if (side.left != k_none && (left == k_none || side.left == left)) return {};
   }

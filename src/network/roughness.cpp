@@ -246,6 +246,7 @@ void Roughness::measure_residuals(Residuals* residuals) const {
 
 Status Roughness::smooth(double lambda, Residuals* residuals) {
   const uint32_t m = rows(), columns = k_columns + probes_;
+  TRY(pace_.after(m));
   for (size_t e = 0; e < product_.value.size(); ++e) system_.value[e] = lambda * product_.value[e];
   for (uint32_t j = 0; j < m; ++j) system_.value[system_.start[j]] += 1.0;
   for (size_t i = 0; i < solution_.size(); ++i) solution_[i] = right_side_[i];

@@ -16,6 +16,7 @@
 // Estimator of the Trace of the Influence Matrix for Laplacian Smoothing Splines", 1990.
 #pragma once
 
+#include "base/in_parts.h"
 #include "num/vec.h"
 #include "sparse/ldl.h"
 
@@ -60,6 +61,7 @@ class Roughness {
 
   explicit Roughness(Context& context)
       : context_(&context),
+        pace_(context),
         unknown_(context),
         value_(context),
         residual_(context),
@@ -83,6 +85,7 @@ class Roughness {
   static constexpr uint32_t k_probes = 8;
 
   Context* context_;
+  Pace pace_;
   uint32_t unknowns_ = 0;
   double spacing_ = 0.0;
   Array<uint32_t> unknown_;  // of each kept sample

@@ -60,6 +60,15 @@ static TwoParts wide_triple(const WideVec3& u, const WideVec3& v, const WideVec3
   return det;
 }
 
+// Each of the three terms is the outcome of four operations, and passes up to three sums: their
+// errors, at most 2^-100 of the permanent each, stay far below the bound.
+Filtered orient3d_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  double permanent = 0.0;
+  const TwoParts det =
+      wide_triple(wide_vector(a, b), wide_vector(a, c), wide_vector(a, d), &permanent);
+  return {det.high, std::fabs(det.high) > 0x1p-95 * permanent};
+}
+
 // lift(u) det(v, w, t), again with its permanent.
 static TwoParts wide_lift_term(const WideVec3& u, const WideVec3& v, const WideVec3& w,
                                const WideVec3& t, double* permanent) {

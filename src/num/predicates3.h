@@ -21,6 +21,7 @@ inline constexpr double k_least_coordinate3 = 0x1p-100;
 
 // Shewchuk's bound for this determinant is (7 + 56 eps) eps times its permanent, which is at most
 // 6 X Y Z for the largest differences X, Y, Z; 42.5 eps leaves room for the rounding of the bound.
+// Where it is zero all four lie in a plane x, y or z = const., and so is the determinant, exactly.
 inline Filtered orient3d_filter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   constexpr double k_bound = 42.5 * 0x1p-53;
   const Vec3 u = b - a;
@@ -31,7 +32,7 @@ inline Filtered orient3d_filter(const Vec3& a, const Vec3& b, const Vec3& c, con
   const double x = larger(std::fabs(u.x), larger(std::fabs(v.x), std::fabs(w.x)));
   const double y = larger(std::fabs(u.y), larger(std::fabs(v.y), std::fabs(w.y)));
   const double z = larger(std::fabs(u.z), larger(std::fabs(v.z), std::fabs(w.z)));
-  return {det, std::fabs(det) > k_bound * (x * y * z)};
+  return {det, std::fabs(det) >= k_bound * (x * y * z)};
 }
 
 // Likewise (16 + 224 eps) eps times a permanent of at most 72 X Y Z M^2, M the largest of the
@@ -67,6 +68,7 @@ inline Filtered insphere_filter(const Vec3& a, const Vec3& b, const Vec3& c, con
 
 // The stages behind the filters, the wide ones in pairs of doubles for the many cases that are
 // degenerate but for the rounding of their coordinates.
+Filtered orient3d_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 double orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Filtered insphere_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p);
 double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p);
@@ -75,7 +77,9 @@ double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 // the four points lie in one plane. About six times the signed volume.
 inline double orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Filtered filtered = orient3d_filter(a, b, c, d);
-  return filtered.certain ? filtered.value : orient3d_exact(a, b, c, d);
+  if (filtered.certain) return filtered.value;
+  const Filtered wide = orient3d_wide(a, b, c, d);
+  return wide.certain ? wide.value : orient3d_exact(a, b, c, d);
 }
 
 // Positive where p lies inside the sphere through a, b, c, d (positively oriented; the sign turns

@@ -1,5 +1,6 @@
 #include "surface/from_flow.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "flow/crossings.h"
 #include "mesh/curvature.h"
@@ -19,21 +20,21 @@ static uint32_t curve_before(const flow::Flow& flow, uint32_t i) {
 static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& mesh,
                                  Surface* surface, FlowOutcome* outcome) {
   const size_t samples = flow.samples.position.size();
-  Array<uint32_t> number(outcome->vertex_of.context());
+  Context& context = outcome->vertex_of.context();
+  Array<uint32_t> number(context);
   TRY(number.assign(mesh.position.size(), k_none));
-  for (const uint32_t v : mesh.triangle) number[v] = 0;
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t i) { number[mesh.triangle[i]] = 0; }));
   for (const uint32_t v : flow.samples.at) number[v] = 0;
   TRY(surface->position.reserve(mesh.position.size()));
   uint32_t used = 0;
-  for (size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == k_none) continue;
+  TRY(in_parts(context, number.size(), [&](size_t v) {
+    if (number[v] == k_none) return;
     number[v] = used++;
     surface->position.push_reserved(mesh.position[v]);
-  }
+  }));
   TRY(surface->triangle.resize(mesh.triangle.size()));
-  for (size_t i = 0; i < mesh.triangle.size(); ++i) {
-    surface->triangle[i] = number[mesh.triangle[i]];
-  }
+  TRY(in_parts(context, mesh.triangle.size(),
+               [&](size_t i) { surface->triangle[i] = number[mesh.triangle[i]]; }));
   TRY(surface->patch.copy(mesh.patch.span()));
   number.shrink(samples);
   outcome->vertex_of = static_cast<Array<uint32_t>&&>(number);
@@ -341,6 +342,7 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   }
   TRY(take_flow_curves(flow, outcome->vertex_of.span(), surface));
   TRY(surface->constraint_normal.assign(surface->position.size(), Vec3{}));
+  TRY(context.checkpoint());
   Array<Vec3> offset(context);
   if (!settings.normal.empty()) {
     TRY(take_flow_normals(flow, settings.normal, outcome->vertex_of.span(), surface, &offset));

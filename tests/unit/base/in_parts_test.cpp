@@ -34,3 +34,46 @@ TEST_CASE("a pass in parts ends where the caller cancels") {
   CHECK(in_parts(context, 10000, [&](size_t) { ++done; }).code == wireskin::Code::cancelled);
   CHECK(done == 4096);
 }
+
+TEST_CASE("a pace asks once so many steps have been made, however they are counted") {
+  size_t asked = 0;
+  wireskin::Callbacks callbacks;
+  callbacks.cancel = [](void* user) { return int32_t{++*static_cast<size_t*>(user) == 3}; };
+  callbacks.cancel_user = &asked;
+  Context context({}, 0, callbacks);
+  wireskin::Pace pace(context);
+  for (size_t i = 0; i < 4095; ++i) REQUIRE(pace.after().ok());
+  CHECK(asked == 0);
+  CHECK(pace.after().ok());
+  CHECK(asked == 1);
+  CHECK(pace.after(4000).ok());
+  CHECK(asked == 1);
+  CHECK(pace.after(100000).ok());
+  CHECK(asked == 2);
+  pace.add(4000);
+  CHECK(pace.after(95).ok());
+  CHECK(pace.after(1).code == wireskin::Code::cancelled);
+}
+
+TEST_CASE("room made in parts keeps what there was, and grows as push() does") {
+  unit::Heap heap;
+  wireskin::Array<uint32_t> array(heap.context);
+  const auto room = [&] { return array.capacity_bytes() / sizeof(uint32_t); };
+  unit::must(make_room_in_parts(9000, &array));
+  CHECK(room() == 9000);
+  CHECK(heap.checkpoints == 0);
+  for (uint32_t i = 0; i < 9000; ++i) array.push_reserved(i);
+  unit::must(make_room_in_parts(0, &array));
+  CHECK(room() == 9000);
+  unit::must(make_room_in_parts(1, &array));
+  CHECK(room() == 13500);
+  CHECK(heap.checkpoints == 2);
+  // A cancelled call leaves all as it was.
+  heap.cancel_at = 3;
+  CHECK(make_room_in_parts(50000, &array).code == wireskin::Code::cancelled);
+  CHECK(room() == 13500);
+  unit::must(make_room_in_parts(50000, &array));
+  CHECK(room() == 59000);
+  REQUIRE(array.size() == 9000);
+  for (uint32_t i = 0; i < 9000; ++i) REQUIRE(array[i] == i);
+}

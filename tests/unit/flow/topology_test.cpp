@@ -27,7 +27,7 @@ TEST_CASE("What peeling leaves does not depend on its order") {
   };
   fill(&first);
   const size_t whole = size_t(std::count(first.in.begin(), first.in.end(), 1));
-  peel(flow.complex, flow.curves, Protect::curves, &first);
+  unit::must(peel(flow.complex, flow.curves, Protect::curves, &first));
   const std::vector<uint8_t> left = unit::to_vector(first.in);
   CHECK(std::count(left.begin(), left.end(), 1) > 0);
   CHECK(size_t(std::count(left.begin(), left.end(), 1)) < whole);
@@ -45,7 +45,7 @@ TEST_CASE("What peeling leaves does not depend on its order") {
     }
     begin_removal(&sheet);
     for (const uint32_t e : free_edges) sheet.loose.push_reserved(e);
-    peel_after(flow.complex, flow.curves, Protect::curves, &sheet);
+    unit::must(peel_after(flow.complex, flow.curves, Protect::curves, &sheet));
     CHECK(unit::to_vector(sheet.in) == left);
     undo_removal(flow.complex, &sheet);
     CHECK(size_t(std::count(sheet.in.begin(), sheet.in.end(), 1)) == whole);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <random>
 
@@ -39,7 +40,9 @@ struct Tally {
   void orient(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const int truth = det(between(a, b), between(a, c), between(a, d)).sign();
     const Filtered f = orient3d_filter(a, b, c, d);
-    ++(f.certain ? filter : exact);
+    const Filtered w = orient3d_wide(a, b, c, d);
+    ++(f.certain ? filter : w.certain ? wide : exact);
+    if (w.certain && sign_of(w.value) != truth) ++wrong;
     if (sign_of(f.value) != truth) {
       ++lies;
       if (f.certain) ++wrong;
@@ -102,8 +105,25 @@ TEST_CASE("orient3d on grids of neighbouring doubles round a plane") {
   }
   tally.print("orient3d, grids of ulps");
   CHECK(tally.wrong == 0);
-  CHECK(tally.exact > 500);
+  CHECK(tally.wide > 500);
+  CHECK(tally.exact > 0);
   CHECK(tally.lies > 50);
+}
+
+TEST_CASE("orient3d in planes of one coordinate: zero, and the filter knows") {
+  Tally tally;
+  std::mt19937 random(7);
+  const auto uniform = [&] { return static_cast<double>(random()) * 0x1p-31 - 1.0; };
+  for (int round = 0; round < 300; ++round) {
+    Vec3 p[4];
+    const double common = round % 2 == 0 ? uniform() : std::ldexp(uniform(), round - 150);
+    for (Vec3& q : p) q = {uniform(), uniform(), uniform()};
+    for (Vec3& q : p) (round % 3 == 0 ? q.x : round % 3 == 1 ? q.y : q.z) = common;
+    tally.orient(p[0], p[1], p[2], p[3]);
+  }
+  CHECK(tally.zeros == 300);
+  CHECK(tally.filter == 300);
+  CHECK(tally.wrong == 0);
 }
 
 TEST_CASE("insphere on points of one sphere but for their rounding") {

@@ -1,0 +1,38 @@
+// sort() of so many values that a caller should not have to wait for its end: a checkpoint before
+// each partition of a long run. Short runs are left to sort(), and so are those whose pivots have
+// turned out badly; the result is the same, for `less` must be a total order.
+#pragma once
+
+#include "base/sort.h"
+
+namespace wireskin {
+
+template <typename T, typename Less>
+Status sort_in_parts(Context& context, Span<T> values, const Less& less) {
+  constexpr size_t k_part = 1 << 13;
+  struct Run {
+    Span<T> values;
+    int budget;
+  };
+  Run stack[64];  // the longer part waits, so the depth is at most log2 of the size
+  int depth = 0, budget = 2;
+  for (size_t n = values.size(); n > 1; n >>= 1) budget += 2;
+  stack[depth++] = {values, budget};
+  while (depth > 0) {
+    Run run = stack[--depth];
+    while (run.values.size() > k_part && run.budget-- > 0) {
+      TRY(context.checkpoint());
+      T* const middle = partition(run.values.begin(), run.values.end(), less);
+      const size_t cut = static_cast<size_t>(middle - run.values.begin());
+      const Span<T> left = run.values.part(0, cut);
+      const Span<T> right = run.values.part(cut, run.values.size() - cut);
+      const bool right_waits = left.size() < right.size();
+      stack[depth++] = {right_waits ? right : left, run.budget};
+      run.values = right_waits ? left : right;
+    }
+    sort(run.values, less);
+  }
+  return {};
+}
+
+}  // namespace wireskin
