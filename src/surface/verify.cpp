@@ -1,15 +1,73 @@
 #include "surface/verify.h"
 
+#include "base/sort.h"
 #include "mesh/check.h"
 
 namespace wireskin {
 
 #ifdef WIRESKIN_DEBUG
 
+static Status stop_on_fault(const Status& status) {
+  const bool stopped = status.code == Code::out_of_memory || status.code == Code::memory_cap ||
+                       status.code == Code::cancelled;
+  WIRESKIN_ASSERT(status.ok() || stopped);
+  return stopped ? status : Status{};
+}
+
+static uint64_t key_of_edge(uint32_t a, uint32_t b) {
+  return a < b ? uint64_t{a} << 32 | b : uint64_t{b} << 32 | a;
+}
+
+static bool holds_key(Span<const uint64_t> sorted, uint64_t key) {
+  size_t low = 0, high = sorted.size();
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    (sorted[middle] < key ? low : high) = sorted[middle] < key ? middle + 1 : middle;
+  }
+  return low < sorted.size() && sorted[low] == key;
+}
+
+// The pieces that curves cut the triangles into.
+static Status count_pieces(Context& context, const Surface& surface, int32_t* pieces) {
+  Array<uint64_t> curve_edge(context);
+  Array<uint32_t> twin(context), stack(context);
+  Array<uint8_t> seen(context);
+  const Span<const uint32_t> corner = surface.triangle.span();
+  TRY(curve_edge.reserve(surface.curve_edge.size() / 2));
+  const uint32_t vertices = static_cast<uint32_t>(surface.position.size());
+  TRY(stop_on_fault(mesh::find_twins(vertices, corner, &twin)));
+  TRY(stack.reserve(corner.size() / 3));
+  TRY(seen.assign(corner.size() / 3, 0));
+  for (size_t e = 0; e < surface.curve_edge.size(); e += 2) {
+    curve_edge.push_reserved(key_of_edge(surface.curve_edge[e], surface.curve_edge[e + 1]));
+  }
+  sort(curve_edge.span(), [](uint64_t a, uint64_t b) { return a < b; });
+  *pieces = 0;
+  for (uint32_t first = 0; first < seen.size(); ++first) {
+    if (seen[first]) continue;
+    ++*pieces;
+    seen[first] = 1;
+    stack.push_reserved(first);
+    while (!stack.empty()) {
+      const uint32_t t = stack.back();
+      stack.pop();
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        if (twin[h] == k_none || seen[twin[h] / 3]) continue;
+        const uint64_t key = key_of_edge(corner[h], corner[mesh::next_half_edge(h)]);
+        if (holds_key(curve_edge.span(), key)) continue;
+        seen[twin[h] / 3] = 1;
+        stack.push_reserved(twin[h] / 3);
+      }
+    }
+  }
+  return {};
+}
+
 // Nodes less segments of the patches' borders, and of each patch its inside: a disc, or with
-// several loops a sphere with that many holes, whatever curves lie in it.
+// several loops a sphere with that many holes, whatever curves lie in it. A loop that passes a node
+// twice, like an eight, may bound one disc more than it seems: these show in the count of pieces.
 static Status predict_euler_characteristic(Context& context, const network::Network& network,
-                                           int32_t* expected) {
+                                           const Surface& surface, int32_t* expected) {
   Array<uint8_t> on_border(context), used(context);
   TRY(on_border.assign(network.segment.size(), 0));
   for (uint32_t h : network.loop.item) on_border[h / 2] = 1;
@@ -20,7 +78,7 @@ static Status predict_euler_characteristic(Context& context, const network::Netw
     nodes = nodes > s.to ? nodes : s.to + 1;
   }
   TRY(used.assign(nodes, 0));
-  *expected = 0;
+  TRY(count_pieces(context, surface, expected));
   for (size_t s = 0; s < on_border.size(); ++s) {
     const network::Segment& segment = network.segment[s];
     if (!on_border[s] || segment.from == k_none) continue;  // a closed curve comes to nought
@@ -29,16 +87,9 @@ static Status predict_euler_characteristic(Context& context, const network::Netw
   }
   for (uint8_t node : used) *expected += node;
   for (uint32_t p = 0; p < network.patches(); ++p) {
-    *expected += 2 - static_cast<int32_t>(network.patch_start[p + 1] - network.patch_start[p]);
+    *expected += 1 - static_cast<int32_t>(network.patch_start[p + 1] - network.patch_start[p]);
   }
   return {};
-}
-
-static Status stop_on_fault(const Status& status) {
-  const bool stopped = status.code == Code::out_of_memory || status.code == Code::memory_cap ||
-                       status.code == Code::cancelled;
-  WIRESKIN_ASSERT(status.ok() || stopped);
-  return stopped ? status : Status{};
 }
 
 #endif
@@ -47,7 +98,7 @@ Status verify_surface(Context& context, const network::Network& network, Span<co
                       const Surface& surface) {
 #ifdef WIRESKIN_DEBUG
   int32_t expected = 0;
-  TRY(predict_euler_characteristic(context, network, &expected));
+  TRY(predict_euler_characteristic(context, network, surface, &expected));
   mesh::Expectations expectations;
   expectations.position = position;
   expectations.triangle = surface.triangle.span();
