@@ -1662,6 +1662,70 @@ Status explain_rounding(const Status& status, Span<const Vec3> positions, double
 }  /* namespace wireskin::api */
 /* ======== end src/api/input.h ======== */
 
+/* ======== begin src/base/in_parts.h ======== */
+/* A pass over many things that may take longer than a caller wants to wait: body(i) for each index */
+/* below `count`, in order, with a checkpoint after every part of 4096, or of another size for steps */
+/* that take next to no time. Short passes have none, so that small calls are not slowed down; the */
+/* stage that makes many of them has its own. */
+/* */
+/* Pace is the same for loops whose steps can fail or take unequal work: these say what they did. */
+
+namespace wireskin {
+
+inline constexpr size_t k_steps_per_checkpoint = 4096;
+
+template <size_t k_part = k_steps_per_checkpoint, class Body>
+Status in_parts(Context& context, size_t count, const Body& body) {
+  /* The body stands here once, or the compiler would make a call of it. */
+  for (size_t i = 0; i < count;) {
+    const bool whole = count - i >= k_part;
+    for (const size_t end = whole ? i + k_part : count; i < end; ++i) body(i);
+    if (whole) TRY(context.checkpoint());
+  }
+  return {};
+}
+
+template <typename T>
+Status copy_in_parts(const Array<T>& source, Array<T>* target) {
+  TRY(target->resize(source.size()));
+  return in_parts(target->context(), source.size(), [&](size_t i) { (*target)[i] = source[i]; });
+}
+
+/* Room for so many elements more. Growing by a half at least, as push() does, but for arrays so */
+/* large that it takes its time. */
+template <typename T>
+Status make_room_in_parts(size_t more, Array<T>* array) {
+  const size_t room = array->capacity_bytes() / sizeof(T), size = array->size();
+  if (more <= room - size) return {};
+  Array<T> larger(array->context());
+  TRY(larger.reserve(size + more > room + room / 2 ? size + more : room + room / 2));
+  TRY(in_parts(array->context(), size, [&](size_t i) { larger.push_reserved((*array)[i]); }));
+  *array = static_cast<Array<T>&&>(larger);
+  return {};
+}
+
+class Pace {
+ public:
+  explicit Pace(Context& context) : context_(context) {}
+
+  /* Counts only; for places that have no status to return. */
+  void add(size_t steps) { steps_ += steps; }
+
+  Status after(size_t steps = 1) {
+    steps_ += steps;
+    if (steps_ < k_steps_per_checkpoint) return {};
+    steps_ = 0;
+    return context_.checkpoint();
+  }
+
+ private:
+  Context& context_;
+  size_t steps_ = 0;
+};
+
+}  /* namespace wireskin */
+/* ======== end src/base/in_parts.h ======== */
+
 /* ======== begin src/sparse/csc.h ======== */
 /* Sparse matrices in compressed columns, the only matrix format of the library. */
 /* */
@@ -1845,6 +1909,7 @@ class Roughness {
 
   explicit Roughness(Context& context)
       : context_(&context),
+        pace_(context),
         unknown_(context),
         value_(context),
         residual_(context),
@@ -1868,6 +1933,7 @@ class Roughness {
   static constexpr uint32_t k_probes = 8;
 
   Context* context_;
+  Pace pace_;
   uint32_t unknowns_ = 0;
   double spacing_ = 0.0;
   Array<uint32_t> unknown_;  /* of each kept sample */
@@ -2908,34 +2974,6 @@ wsk_status finish(const Status& status, wsk_report* report, wsk_report* out);
 }  /* namespace wireskin::api */
 /* ======== end src/api/report.h ======== */
 
-/* ======== begin src/base/in_parts.h ======== */
-/* A pass over many things that may take longer than a caller wants to wait: body(i) for each index */
-/* below `count`, in order, with a checkpoint after every part of 4096. Short passes have none, so */
-/* that small calls are not slowed down; the stage that makes many of them has its own. */
-
-namespace wireskin {
-
-template <class Body>
-Status in_parts(Context& context, size_t count, const Body& body) {
-  constexpr size_t k_part = 4096;
-  /* The body stands here once, or the compiler would make a call of it. */
-  for (size_t i = 0; i < count;) {
-    const bool whole = count - i >= k_part;
-    for (const size_t end = whole ? i + k_part : count; i < end; ++i) body(i);
-    if (whole) TRY(context.checkpoint());
-  }
-  return {};
-}
-
-template <typename T>
-Status copy_in_parts(const Array<T>& source, Array<T>* target) {
-  TRY(target->resize(source.size()));
-  return in_parts(target->context(), source.size(), [&](size_t i) { (*target)[i] = source[i]; });
-}
-
-}  /* namespace wireskin */
-/* ======== end src/base/in_parts.h ======== */
-
 /* ======== begin src/api/view.h ======== */
 /* Results as the caller sees them: one block of his memory holds the handle and, behind it, all */
 /* arrays of its view, in his units. */
@@ -3634,6 +3672,7 @@ struct Sheet {
   Array<uint32_t> loose;
   Array<uint32_t> removed;
   bool bared = false;  /* the last removal took the last triangle from a curve */
+  size_t work = 0;     /* loose edges looked at since the last checkpoint */
 
   explicit Sheet(Context& context)
       : in(context), degree(context), loose(context), removed(context) {}
@@ -3647,16 +3686,17 @@ Status copy_sheet(const Sheet& source, Sheet* sheet);
 void add_to_sheet(const Complex& complex, uint32_t triangle, Sheet* sheet);
 
 /* Peels everything. Then `removed` is empty: this is not to be undone. */
-void peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
+Status peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
 
 /* Removes one triangle without peeling; several of these and one peel_after() make one removal. */
 void begin_removal(Sheet* sheet);
 void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t triangle,
                      Sheet* sheet);
-void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
+Status peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
 /* Likewise, the curves protected; where one would lose its last triangle, takes the whole removal */
-/* back at once and returns false. */
-bool peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet);
+/* back at once: then *done is false. */
+Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet,
+                         bool* done);
 void undo_removal(const Complex& complex, Sheet* sheet);
 
 /* The triangles that can be reached from one without crossing a curve, a chord, or an edge whose */
@@ -5135,6 +5175,7 @@ inline constexpr double k_least_coordinate3 = 0x1p-100;
 
 /* Shewchuk's bound for this determinant is (7 + 56 eps) eps times its permanent, which is at most */
 /* 6 X Y Z for the largest differences X, Y, Z; 42.5 eps leaves room for the rounding of the bound. */
+/* Where it is zero all four lie in a plane x, y or z = const., and so is the determinant, exactly. */
 inline Filtered orient3d_filter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   constexpr double k_bound = 42.5 * 0x1p-53;
   const Vec3 u = b - a;
@@ -5145,7 +5186,7 @@ inline Filtered orient3d_filter(const Vec3& a, const Vec3& b, const Vec3& c, con
   const double x = larger(std::fabs(u.x), larger(std::fabs(v.x), std::fabs(w.x)));
   const double y = larger(std::fabs(u.y), larger(std::fabs(v.y), std::fabs(w.y)));
   const double z = larger(std::fabs(u.z), larger(std::fabs(v.z), std::fabs(w.z)));
-  return {det, std::fabs(det) > k_bound * (x * y * z)};
+  return {det, std::fabs(det) >= k_bound * (x * y * z)};
 }
 
 /* Likewise (16 + 224 eps) eps times a permanent of at most 72 X Y Z M^2, M the largest of the */
@@ -5181,6 +5222,7 @@ inline Filtered insphere_filter(const Vec3& a, const Vec3& b, const Vec3& c, con
 
 /* The stages behind the filters, the wide ones in pairs of doubles for the many cases that are */
 /* degenerate but for the rounding of their coordinates. */
+Filtered orient3d_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 double orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Filtered insphere_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p);
 double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& p);
@@ -5189,7 +5231,9 @@ double insphere_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 /* the four points lie in one plane. About six times the signed volume. */
 inline double orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Filtered filtered = orient3d_filter(a, b, c, d);
-  return filtered.certain ? filtered.value : orient3d_exact(a, b, c, d);
+  if (filtered.certain) return filtered.value;
+  const Filtered wide = orient3d_wide(a, b, c, d);
+  return wide.certain ? wide.value : orient3d_exact(a, b, c, d);
 }
 
 /* Positive where p lies inside the sphere through a, b, c, d (positively oriented; the sign turns */
@@ -5357,6 +5401,44 @@ Status merge_cells(Context& context, const Samples& samples, const StraightLines
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/merge_cells.h ======== */
+
+/* ======== begin src/base/sort_in_parts.h ======== */
+/* sort() of so many values that a caller should not have to wait for its end: a checkpoint before */
+/* each partition of a long run. Short runs are left to sort(), and so are those whose pivots have */
+/* turned out badly; the result is the same, for `less` must be a total order. */
+
+namespace wireskin {
+
+template <typename T, typename Less>
+Status sort_in_parts(Context& context, Span<T> values, const Less& less) {
+  constexpr size_t k_part = 1 << 13;
+  struct Run {
+    Span<T> values;
+    int budget;
+  };
+  Run stack[64];  /* the longer part waits, so the depth is at most log2 of the size */
+  int depth = 0, budget = 2;
+  for (size_t n = values.size(); n > 1; n >>= 1) budget += 2;
+  stack[depth++] = {values, budget};
+  while (depth > 0) {
+    Run run = stack[--depth];
+    while (run.values.size() > k_part && run.budget-- > 0) {
+      TRY(context.checkpoint());
+      T* const middle = partition(run.values.begin(), run.values.end(), less);
+      const size_t cut = static_cast<size_t>(middle - run.values.begin());
+      const Span<T> left = run.values.part(0, cut);
+      const Span<T> right = run.values.part(cut, run.values.size() - cut);
+      const bool right_waits = left.size() < right.size();
+      stack[depth++] = {right_waits ? right : left, run.budget};
+      run.values = right_waits ? left : right;
+    }
+    sort(run.values, less);
+  }
+  return {};
+}
+
+}  /* namespace wireskin */
+/* ======== end src/base/sort_in_parts.h ======== */
 
 /* ======== begin src/num/expansion.h ======== */
 /* Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum, */
@@ -8834,6 +8916,7 @@ void Roughness::measure_residuals(Residuals* residuals) const {
 
 Status Roughness::smooth(double lambda, Residuals* residuals) {
   const uint32_t m = rows(), columns = k_columns + probes_;
+  TRY(pace_.after(m));
   for (size_t e = 0; e < product_.value.size(); ++e) system_.value[e] = lambda * product_.value[e];
   for (uint32_t j = 0; j < m; ++j) system_.value[system_.start[j]] += 1.0;
   for (size_t i = 0; i < solution_.size(); ++i) solution_[i] = right_side_[i];
@@ -9437,8 +9520,9 @@ Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const ui
   TRY(cut->triangle.assign(triangles.size(), k_none));
   TRY(cut->origin.resize(vertices));
   for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
+  Pace pace(cut->origin.context());
   for (uint32_t h = 0; h < triangles.size(); ++h) {
-    if (h % 65536 == 65535) TRY(cut->origin.context().checkpoint());
+    TRY(pace.after());
     if (cut->triangle[h] != k_none) continue;
     const uint32_t v = triangles[h];
     uint32_t copy = v;
@@ -9475,7 +9559,9 @@ Status corner_normals(const Cut& cut, uint32_t vertices, Span<const Vec3> normal
   Array<uint8_t> parted(result->corner.context());
   TRY(parted.assign(vertices, 0));
   for (uint32_t c = vertices; c < cut.vertices(); ++c) parted[cut.origin[c]] = 1;
+  Pace pace(result->corner.context());
   for (uint32_t h = 0; h < cut.triangle.size(); ++h) {
+    TRY(pace.after());
     const uint32_t copy = cut.triangle[h];
     if (!parted[cut.origin[copy]]) continue;
     TRY(result->corner.push(h));
@@ -9503,7 +9589,7 @@ static Status find_manifold_twins(uint32_t vertices, Span<const uint32_t> triang
   TRY(find_corners(vertices, triangles, &start, &corner));
   TRY(to.assign(vertices, EdgeCount{}));
   TRY(twins->resize(triangles.size()));
-  for (uint32_t v = 0; v < vertices; ++v) {
+  return in_parts(context, vertices, [&](size_t v) {
     const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
     for (const uint32_t h : leaving) {
       const uint32_t arriving = previous_half_edge(h);
@@ -9519,9 +9605,7 @@ static Status find_manifold_twins(uint32_t vertices, Span<const uint32_t> triang
     for (const uint32_t h : leaving) {
       to[triangles[next_half_edge(h)]] = to[triangles[previous_half_edge(h)]] = EdgeCount{};
     }
-    if (v % 65536 == 65535) TRY(context.checkpoint());
-  }
-  return {};
+  });
 }
 
 static Vec3 face_normal(Span<const Vec3> positions, Span<const uint32_t> triangles, uint32_t h) {
@@ -9539,16 +9623,15 @@ Status find_crease_normals(Context& context, Span<const Vec3> positions,
   Cut cut(context);
   TRY(find_manifold_twins(vertices, triangles, &twins));
   TRY(crease.assign(triangles.size(), 0));
-  for (uint32_t h = 0; h < triangles.size(); ++h) {
-    if (h % 65536 == 65535) TRY(context.checkpoint());
-    const uint32_t twin = twins[h];
-    if (twin == k_none || twin < h) continue;
-    if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) continue;
+  TRY(in_parts(context, triangles.size(), [&](size_t i) {
+    const uint32_t h = static_cast<uint32_t>(i), twin = twins[h];
+    if (twin == k_none || twin < h) return;
+    if (!on_curve[triangles[h]] || !on_curve[triangles[next_half_edge(h)]]) return;
     const Vec3 here = face_normal(positions, triangles, h);
     const Vec3 there = face_normal(positions, triangles, twin);
-    if (here == Vec3{} || there == Vec3{}) continue;  /* a triangle without area turns nowhere */
+    if (here == Vec3{} || there == Vec3{}) return;  /* a triangle without area turns nowhere */
     crease[h] = crease[twin] = dot(here, there) < k_crease_cosine;
-  }
+  }));
   TRY(cut_open(vertices, triangles, twins.span(), crease.span(), &cut));
   TRY(place.resize(cut.vertices()));
   TRY(normal.resize(cut.vertices()));
@@ -13369,8 +13452,8 @@ namespace wireskin::flow {
 
 static constexpr double k_infinity = HUGE_VAL;
 
-static constexpr uint32_t k_per_checkpoint = 1u << 17;
-static constexpr uint32_t k_values_per_checkpoint = 1u << 13;  /* each may take a microsecond */
+static constexpr uint32_t k_per_checkpoint = 1u << 15;
+static constexpr uint32_t k_values_per_checkpoint = 1u << 12;  /* each may take a microsecond */
 
 /* The corners of the face opposite to each corner, counter-clockwise seen from outside. */
 static constexpr uint32_t k_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -13689,6 +13772,7 @@ static bool critical_triangle(const Complex& c, uint32_t t) {
 }
 
 Status find_critical_points(const Complex& complex, CriticalPoints* critical) {
+  Pace pace(critical->edge.context());
   critical->points = 0;
   critical->edge.clear();
   critical->triangle.clear();
@@ -13697,12 +13781,15 @@ Status find_critical_points(const Complex& complex, CriticalPoints* critical) {
     if (complex.same_as[i] == i) ++critical->points;
   }
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    TRY(pace.after());
     if (complex.edge_gabriel[e] != 0) TRY(critical->edge.push(e));
   }
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
     if (critical_triangle(complex, t)) TRY(critical->triangle.push(t));
   }
   for (uint32_t t = 0; t < complex.tet_count(); ++t) {
+    TRY(pace.after());
     if (critical_tet(complex, t)) TRY(critical->tet.push(t));
   }
   return {};
@@ -14479,16 +14566,15 @@ static Status split_encroached(Context& context, const Arcs& arcs, double greate
 static Status weld_samples(Context& context, double tolerance, Samples* samples) {
   PointGrid grid(context);
   TRY(grid.build(samples->position.span()));
-  for (uint32_t i = 0; i < samples->position.size(); ++i) {
-    uint32_t first = i;
+  return in_parts(context, samples->position.size(), [&](size_t i) {
+    uint32_t first = static_cast<uint32_t>(i);
     const Vec3 p = samples->position[i];
     grid.any_near(p, tolerance, [&](uint32_t k) {
       if (k < first && length(samples->position[k] - p) <= tolerance) first = k;
       return false;
     });
     samples->position[i] = samples->position[first];
-  }
-  return {};
+  });
 }
 
 Status sample_arcs(Context& context, const Arcs& arcs, double greatest_step, Samples* samples) {
@@ -14528,15 +14614,14 @@ Status find_curve_edges(const Complex& complex, const Samples& samples, CurveEdg
       }
     }
   }
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+  return in_parts(curves->segment.context(), complex.triangle_count(), [&](size_t t) {
+    const uint32_t* const edge = &complex.triangle_edge[3 * t];
     for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t* const edge = &complex.triangle_edge[3 * size_t{t}];
       if (curves->on_curve(edge[k])) continue;
       if (!curves->on_curve(edge[(k + 1) % 3]) || !curves->on_curve(edge[(k + 2) % 3])) continue;
-      curves->chord_middle[edge[k]] = complex.triangle[3 * size_t{t} + k];
+      curves->chord_middle[edge[k]] = complex.triangle[3 * t + k];
     }
-  }
-  return {};
+  });
 }
 
 }  /* namespace wireskin::flow */
@@ -14683,8 +14768,7 @@ static constexpr double k_noise_off_plane = 3.0;  /* times its standard deviatio
 static constexpr double k_most_noise = 10.0;      /* times what is flat without noise */
 static constexpr double k_exact = 0.02;  /* of what counts as flat: planes are no matter of choice */
 static constexpr uint8_t k_most_visits = 4;
-static constexpr size_t k_flood_per_checkpoint = size_t{1} << 16;
-static constexpr uint32_t k_triangles_per_pause = 1u << 16;
+static constexpr size_t k_flood_per_checkpoint = size_t{1} << 15;
 
 namespace {
 
@@ -15040,7 +15124,7 @@ static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, FacePl
 static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
                          const StraightLines& lines, double flat, Array<double>* area,
                          Array<uint32_t>* seeds) {
-  size_t looked_at = 0;
+  Pace pace(area->context());
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     FacePlane plane;
@@ -15049,7 +15133,7 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
-        if (++looked_at % k_triangles_per_pause == 0) TRY(area->context().checkpoint());
+        TRY(pace.after());
         if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
         if (!straight && !in_plane(complex, plane, t)) continue;
         (*area)[t] = length(cross_of_triangle(complex, t));
@@ -15057,10 +15141,9 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
       }
     }
   }
-  sort(seeds->span(), [&](uint32_t a, uint32_t b) {
+  return sort_in_parts(area->context(), seeds->span(), [&](uint32_t a, uint32_t b) {
     return (*area)[a] != (*area)[b] ? (*area)[a] > (*area)[b] : a < b;
   });
-  return {};
 }
 
 static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
@@ -15097,6 +15180,7 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
   Array<double> area(context);
   Array<uint32_t> seeds(context);
   TRY(start_faces(complex, samples, curves, lines, &flood, faces));
+  TRY(context.checkpoint());
   TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
     TRY(flood.pause());
@@ -15113,11 +15197,10 @@ Status find_flat_faces(Context& context, const Complex& complex, const Samples& 
     TRY(add_face(complex, samples, curves, lines, plane, seed, &flood, faces));
   }
   if (faces->size() == 0) return {};
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (t % k_triangles_per_pause == 0) TRY(context.checkpoint());
+  return in_parts(context, complex.triangle_count(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
     if (is_line(complex, curves, lines, t)) faces->part[t] = FlatPart::line;
-  }
-  return {};
+  });
 }
 
 }  /* namespace wireskin::flow */
@@ -15517,20 +15600,21 @@ static Status sort_triangles(Context& context, const Complex& complex, Span<cons
                              Array<BitsKey>* keys, Array<uint32_t>* order) {
   const uint32_t count = complex.triangle_count();
   TRY(keys->resize(count));
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t t = count - 1 - i;
+  TRY(in_parts(context, count, [&](size_t i) {
+    const uint32_t t = count - 1 - static_cast<uint32_t>(i);
     const bool flat = !turn.empty() && turn[t] == Pass::flat;
     const double value = complex.triangle_value[t];
     (*keys)[i] = {descending_bits(flat ? k_flat_share * value : value), t};
-  }
+  }));
   TRY(radix_sort(context, keys));
   TRY(order->reserve(count));
   constexpr Pass k_turns[4] = {Pass::first, Pass::by_radius, Pass::late, Pass::last};
   for (const Pass now : k_turns) {
     if (turn.empty() && now != Pass::by_radius) continue;
-    for (const BitsKey& key : *keys) {
-      if (turn.empty() || is_in_turn(turn[key.index], now)) order->push_reserved(key.index);
-    }
+    TRY(in_parts(context, count, [&](size_t i) {
+      const uint32_t t = (*keys)[i].index;
+      if (turn.empty() || is_in_turn(turn[t], now)) order->push_reserved(t);
+    }));
   }
   return {};
 }
@@ -15547,17 +15631,20 @@ static Void describe_void(const Complex& complex, uint32_t creator, uint32_t max
 static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of,
                          Span<const Pass> turn, Persistence* persistence) {
   Array<Void>& voids = persistence->voids;
+  Pace pace(voids.context());
   voids.clear();
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
     if (maximum_of[t] == k_none) continue;
     Void one = describe_void(complex, t, maximum_of[t]);
     one.held = !turn.empty() && turn[t] == Pass::last;
     if (one.held || one.ratio > k_least_ratio) TRY(voids.push(one));
   }
-  sort(voids.span(), [](const Void& a, const Void& b) {
+  const auto before = [](const Void& a, const Void& b) {
     if (a.held != b.held) return a.held;
     return a.ratio != b.ratio ? a.ratio > b.ratio : a.creator < b.creator;
-  });
+  };
+  TRY(sort_in_parts(voids.context(), voids.span(), before));
   TRY(persistence->void_of.assign(complex.triangle_count(), k_none));
   for (uint32_t i = 0; i < voids.size(); ++i) persistence->void_of[voids[i].creator] = i;
   return {};
@@ -15565,7 +15652,7 @@ static Status list_voids(const Complex& complex, Span<const uint32_t> maximum_of
 
 Status find_persistence(Context& context, const Complex& complex, Persistence* persistence,
                         Span<const Pass> turn) {
-  constexpr size_t k_triangles_per_checkpoint = 1u << 16;
+  Pace pace(context);
   const uint32_t outside = complex.tet_count();
   Array<BitsKey> keys(context);
   Array<uint32_t> order(context), maximum_of(context);
@@ -15577,7 +15664,7 @@ Status find_persistence(Context& context, const Complex& complex, Persistence* p
   TRY(voids.maximum.resize(outside + 1));
   for (uint32_t node = 0; node <= outside; ++node) voids.parent[node] = voids.maximum[node] = node;
   for (size_t i = 0; i < order.size(); ++i) {
-    if (i % k_triangles_per_checkpoint == 0) TRY(context.checkpoint());
+    TRY(pace.after());
     const uint32_t t = order[i];
     uint32_t low = voids.root_of(complex.side_of(t, 0));
     uint32_t high = voids.root_of(complex.side_of(t, 1));
@@ -15783,9 +15870,14 @@ void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t 
 }
 
 /* Until nothing is loose or, if wished, a curve has lost its last triangle. */
-static void drain_loose(const Complex& complex, const CurveEdges& curves, Protect protect,
-                        bool until_bared, Sheet* sheet) {
+static Status drain_loose(const Complex& complex, const CurveEdges& curves, Protect protect,
+                          bool until_bared, Sheet* sheet) {
+  constexpr size_t k_work_per_checkpoint = 1u << 13;
   while (!sheet->loose.empty() && !(until_bared && sheet->bared)) {
+    if (++sheet->work >= k_work_per_checkpoint) {
+      sheet->work = 0;
+      TRY(sheet->loose.context().checkpoint());
+    }
     const uint32_t e = sheet->loose.back();
     sheet->loose.pop();
     if (sheet->degree[e] != 1) continue;
@@ -15794,26 +15886,29 @@ static void drain_loose(const Complex& complex, const CurveEdges& curves, Protec
       if (sheet->in[t] != 0) remove_triangle(complex, curves, t, sheet);
     }
   }
+  return {};
 }
 
-void peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
-  drain_loose(complex, curves, protect, false, sheet);
+Status peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
+  return drain_loose(complex, curves, protect, false, sheet);
 }
 
-bool peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet) {
-  drain_loose(complex, curves, Protect::curves, true, sheet);
-  if (!sheet->bared) return true;
-  undo_removal(complex, sheet);
-  return false;
+Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet,
+                         bool* done) {
+  TRY(drain_loose(complex, curves, Protect::curves, true, sheet));
+  *done = !sheet->bared;
+  if (sheet->bared) undo_removal(complex, sheet);
+  return {};
 }
 
-void peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
+Status peel(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet) {
   begin_removal(sheet);
   for (uint32_t e = 0; e < sheet->degree.size(); ++e) {
     if (sheet->degree[e] == 1) sheet->loose.push_reserved(e);
   }
-  peel_after(complex, curves, protect, sheet);
+  TRY(peel_after(complex, curves, protect, sheet));
   begin_removal(sheet);
+  return {};
 }
 
 void undo_removal(const Complex& complex, Sheet* sheet) {
@@ -15823,10 +15918,12 @@ void undo_removal(const Complex& complex, Sheet* sheet) {
 
 Status flood_patch(const Complex& complex, const CurveEdges& curves, const Sheet& sheet,
                    uint32_t triangle, uint32_t value, Span<uint32_t> mark, Array<uint32_t>* patch) {
+  Pace pace(patch->context());
   patch->clear();
   TRY(patch->push(triangle));
   mark[triangle] = value;
   for (size_t i = 0; i < patch->size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{(*patch)[i]} + k];
       if (sheet.degree[e] != 2 || curves.by_curve(e)) continue;
@@ -15861,20 +15958,22 @@ Status label_rooms(const Complex& complex, const Sheet& sheet, Array<uint32_t>* 
   const uint32_t outside = complex.tet_count();
   TRY(label->resize(size_t{outside} + 1));
   for (uint32_t i = 0; i <= outside; ++i) (*label)[i] = i;
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (sheet.in[t] != 0) continue;
+  TRY(in_parts(label->context(), complex.triangle_count(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
+    if (sheet.in[t] != 0) return;
     const uint32_t a = find_label(label->span(), complex.side_of(t, 0));
     const uint32_t b = find_label(label->span(), complex.side_of(t, 1));
     if (a < b) (*label)[b] = a;
     if (b < a) (*label)[a] = b;
-  }
-  for (uint32_t i = 0; i <= outside; ++i) (*label)[i] = find_label(label->span(), i);
-  return {};
+  }));
+  return in_parts(label->context(), label->size(), [&](size_t i) {
+    (*label)[i] = find_label(label->span(), static_cast<uint32_t>(i));
+  });
 }
 
 /* By the radii at which triangles are swallowed, greatest first. */
-static void order_by_value(const Complex& complex, Array<uint32_t>* triangles) {
-  sort(triangles->span(), [&](uint32_t a, uint32_t b) {
+static Status order_by_value(const Complex& complex, Array<uint32_t>* triangles) {
+  return sort_in_parts(triangles->context(), triangles->span(), [&](uint32_t a, uint32_t b) {
     const double fa = complex.triangle_value[a], fb = complex.triangle_value[b];
     return fa != fb ? fa > fb : a > b;
   });
@@ -15961,17 +16060,18 @@ struct VoidTrial {
 
 }  /* namespace */
 
-/* The destroyers and the walls of the voids chosen. */
+static Status add_destroyers(const Complex& complex, const Persistence& persistence, Sheet* sheet) {
+  return in_parts(sheet->in.context(), complex.triangle_count(), [&](size_t t) {
+    if (persistence.creator[t] == 0) add_to_sheet(complex, static_cast<uint32_t>(t), sheet);
+  });
+}
+
 static Status start_trial(const Complex& complex, const Persistence& persistence,
-                          Span<const uint32_t> chosen, VoidTrial* trial) {
+                          VoidTrial* trial) {
   TRY(start_sheet(complex, &trial->all));
   TRY(trial->mark.assign(complex.triangle_count(), k_none));
   TRY(trial->odd.assign(complex.edge_count(), 0));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &trial->all);
-  }
-  for (const uint32_t v : chosen) add_to_sheet(complex, persistence.voids[v].creator, &trial->all);
-  return {};
+  return add_destroyers(complex, persistence, &trial->all);
 }
 
 struct Choice {
@@ -15989,7 +16089,7 @@ static Status try_void(Context& context, const Complex& complex, const CurveEdge
   TRY(copy_sheet(trial->all, &trial->peeled));
   TRY(context.checkpoint());
   add_to_sheet(complex, creator, &trial->peeled);
-  peel(complex, curves, Protect::curves, &trial->peeled);
+  TRY(peel(complex, curves, Protect::curves, &trial->peeled));
   TRY(context.checkpoint());
   *verdict = Verdict::gone;
   if (trial->peeled.in[creator] == 0) return {};
@@ -16015,7 +16115,7 @@ static Status try_voids(Context& context, const Complex& complex, const CurveEdg
   bool waiting = false;
   *untried = 0;
   for (const Need n : cells.need) waiting = waiting || n == Need::waiting;
-  TRY(start_trial(complex, persistence, {}, &trial));
+  TRY(start_trial(complex, persistence, &trial));
   for (uint32_t i = 0; i < persistence.voids.size() && choices->size() < wished; ++i) {
     const Void& v = persistence.voids[i];
     const bool high = v.ratio >= least_ratio;
@@ -16085,6 +16185,18 @@ static bool may_go(const Complex& complex, const FlatCells& cells, const Topolog
          topology.label[complex.side_of(triangle, 1)];
 }
 
+/* Those of a set that may go. */
+static Status list_removable(const Complex& complex, const FlatCells& cells,
+                             const Topology3& topology, Span<const uint8_t> in,
+                             Array<uint32_t>* triangles) {
+  Pace pace(triangles->context());
+  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
+    if (in[t] != 0 && may_go(complex, cells, topology, t)) TRY(triangles->push(t));
+  }
+  return order_by_value(complex, triangles);
+}
+
 /* Opens handles: triangles with one void on both sides that are part of no fin. */
 static Status open_handles(Context& context, const Complex& complex, const CurveEdges& curves,
                            const FlatCells& cells, Topology3* topology) {
@@ -16093,22 +16205,19 @@ static Status open_handles(Context& context, const Complex& complex, const Curve
   Array<uint32_t> order(context);
   TRY(copy_sheet(walls, &finless));
   TRY(context.checkpoint());
-  peel(complex, curves, Protect::nothing, &finless);
+  TRY(peel(complex, curves, Protect::nothing, &finless));
   TRY(context.checkpoint());
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (finless.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
-  }
-  order_by_value(complex, &order);
+  TRY(list_removable(complex, cells, *topology, finless.in.span(), &order));
   TRY(context.checkpoint());
   for (const uint32_t t : order) {
     if (finless.in[t] == 0) continue;
     begin_removal(&walls);
     remove_triangle(complex, curves, t, &walls);
-    if (!peel_unless_bared(complex, curves, &walls)) continue;
-    if (walls.removed.size() > 1000) TRY(context.checkpoint());
+    bool done = false;
+    TRY(peel_unless_bared(complex, curves, &walls, &done));
     begin_removal(&finless);
     for (const uint32_t gone : walls.removed) remove_triangle(complex, curves, gone, &finless);
-    peel_after(complex, curves, Protect::nothing, &finless);
+    TRY(peel_after(complex, curves, Protect::nothing, &finless));
   }
   return {};
 }
@@ -16134,8 +16243,10 @@ static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, 
   wall->clear();
   *whole = true;
   settled[triangle] = Settled::now;
+  Pace pace(wall->context());
   TRY(wall->push(triangle));
   for (size_t i = 0; i < wall->size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{(*wall)[i]} + k];
       if (walls.degree[e] != 2 || curves.by_curve(e)) continue;
@@ -16156,31 +16267,24 @@ static Status flood_unsettled(const Complex& complex, const CurveEdges& curves, 
 /* border is closed has no neighbour that it could join. So each is looked at once. */
 static Status remove_open_walls(Context& context, const Complex& complex, const CurveEdges& curves,
                                 const FlatCells& cells, Topology3* topology) {
-  constexpr size_t k_work_per_checkpoint = 1u << 14;
   Sheet& walls = topology->walls;
+  Pace pace(context);
   Array<uint32_t> order(context), wall(context);
   Array<Settled> settled(context);
   TRY(settled.assign(complex.triangle_count(), Settled::no));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (walls.in[t] != 0 && may_go(complex, cells, *topology, t)) TRY(order.push(t));
-  }
-  order_by_value(complex, &order);
-  size_t work = 0;
+  TRY(list_removable(complex, cells, *topology, walls.in.span(), &order));
   for (const uint32_t seed : order) {
     if (walls.in[seed] == 0 || settled[seed] != Settled::no) continue;
     bool whole = false;
     TRY(flood_unsettled(complex, curves, walls, seed, settled.span(), &wall, &whole));
-    work += wall.size();
     if (whole && has_open_border(complex, curves, walls, wall.span())) {
       begin_removal(&walls);
       for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
-      peel_unless_bared(complex, curves, &walls);
-      work += walls.removed.size();
+      bool done = false;
+      TRY(peel_unless_bared(complex, curves, &walls, &done));
     }
     for (const uint32_t t : wall) settled[t] = Settled::yes;
-    if (work < k_work_per_checkpoint) continue;
-    TRY(context.checkpoint());
-    work = 0;
+    TRY(pace.after(wall.size()));
   }
   return {};
 }
@@ -16192,14 +16296,12 @@ Status reconstruct_topology(Context& context, const Complex& complex, const Curv
                    &topology->untried));
   Sheet& walls = topology->walls;
   TRY(start_sheet(complex, &walls));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    if (persistence.creator[t] == 0) add_to_sheet(complex, t, &walls);
-  }
+  TRY(add_destroyers(complex, persistence, &walls));
   for (const uint32_t v : topology->chosen) {
     add_to_sheet(complex, persistence.voids[v].creator, &walls);
   }
   TRY(context.checkpoint());
-  peel(complex, curves, Protect::curves, &walls);
+  TRY(peel(complex, curves, Protect::curves, &walls));
   TRY(context.checkpoint());
   TRY(copy_sheet(walls, &topology->closed));
   TRY(label_rooms(complex, walls, &topology->label));
@@ -16304,9 +16406,11 @@ static Status straighten_border(const Complex& complex, const CurveEdges& curves
 static Status find_classes(const Complex& complex, const CurveEdges& curves, const Sheet& walls,
                            Classes* classes) {
   Array<uint32_t> patch(classes->of.context());
+  Pace pace(classes->of.context());
   TRY(classes->of.assign(complex.triangle_count(), k_none));
   TRY(classes->start.push(0));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
     if (walls.in[t] == 0 || classes->of[t] != k_none) continue;
     const uint32_t c = static_cast<uint32_t>(classes->kind.size());
     TRY(flood_patch(complex, curves, walls, t, c, classes->of.span(), &patch));
@@ -16319,8 +16423,10 @@ static Status find_classes(const Complex& complex, const CurveEdges& curves, con
 
 static Status find_ears(const Complex& complex, const CurveEdges& curves, Classes* classes,
                         Border* border) {
+  Pace pace(classes->of.context());
   for (uint32_t c = 0; c < classes->kind.size(); ++c) {
     TRY(toggle_triangles(complex, classes->part(c), border));
+    TRY(pace.after(border->edge.size()));
     bool any = false, left = false;
     for (const uint32_t e : border->edge) any = any || border->odd[e] != 0;
     TRY(straighten_border(complex, curves, border));
@@ -16455,11 +16561,13 @@ static Status add_patch(const Complex& complex, const CurveEdges& curves, const 
 static Status own_rest(const Complex& complex, const CurveEdges& curves, const Sheet& walls,
                        Array<uint32_t>* owner) {
   Array<uint32_t> queue(owner->context());
+  Pace pace(owner->context());
   TRY(queue.reserve(owner->size()));
   for (uint32_t t = 0; t < owner->size(); ++t) {
     if ((*owner)[t] != k_none) queue.push_reserved(t);
   }
   for (size_t i = 0; i < queue.size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{queue[i]} + k];
       if (curves.on_curve(e)) continue;
@@ -16492,7 +16600,9 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
   TRY(patches->loop_start.push(0));
   TRY(patches->run_start.push(0));
   TRY(start_loops(complex, &loops));
+  TRY(context.checkpoint());
   size_t taken = 0;
+  Pace pace(context);
   for (uint32_t c = 0; c < classes.kind.size(); ++c) {
     if (classes.kind[c] != Kind::patch) continue;
     const size_t first = patches->triangle.size();
@@ -16502,6 +16612,7 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
     TRY(add_patch(complex, curves, samples, side.span(), part, &loops, patches));
     TRY(patches->start.push(static_cast<uint32_t>(patches->triangle.size())));
     if (c % 256 == 0) TRY(context.checkpoint());
+    TRY(pace.after(part.size()));
   }
   return own_rest(complex, curves, topology.walls, &patches->owner);
 }
@@ -16593,10 +16704,12 @@ Status find_tangents(const Samples& samples, SampleTangents* tangents) {
 static Status number_rooms(Context& context, const Complex& complex, Span<const uint32_t> owner,
                            Cells* cells) {
   Array<uint32_t> label(context), number(context);
+  Pace pace(context);
   TRY(label_rooms(complex, cells->sheet, &label));
   TRY(number.assign(label.size(), k_none));
   TRY(cells->room_of.resize(label.size()));
   for (uint32_t i = 0; i < label.size(); ++i) {
+    TRY(pace.after());
     uint32_t& room = number[label[i]];
     if (room == k_none) {
       room = static_cast<uint32_t>(cells->room.size());
@@ -16643,9 +16756,11 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves, con
                            const SampleTangents& tangents, const Topology3& topology,
                            Cells* cells) {
   Array<uint32_t>& queue = cells->triangle;
+  Pace pace(queue.context());
   TRY(cells->wall_of.assign(complex.triangle_count(), k_none));
   TRY(cells->start.push(0));
   for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
+    TRY(pace.after());
     if (cells->sheet.in[t] == 0 || cells->wall_of[t] != k_none) continue;
     const uint32_t wall = static_cast<uint32_t>(cells->wall.size());
     const size_t first = queue.size();
@@ -16653,6 +16768,7 @@ static Status number_walls(const Complex& complex, const CurveEdges& curves, con
     TRY(queue.push(t));
     cells->wall_of[t] = wall;
     for (size_t i = first; i < queue.size(); ++i) {
+      TRY(pace.after());
       value = larger(value, complex.triangle_value[queue[i]]);
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t e = complex.triangle_edge[3 * size_t{queue[i]} + k];
@@ -16697,11 +16813,11 @@ static Status find_cells(Context& context, const Complex& complex, const CurveEd
                          const FlatCells& flat, const Persistence& persistence,
                          const SampleTangents& tangents, const Topology3& topology, Cells* cells) {
   TRY(start_sheet(complex, &cells->sheet));
-  for (uint32_t t = 0; t < complex.triangle_count(); ++t) {
-    const uint32_t v = persistence.void_of[t];
+  TRY(in_parts(context, complex.triangle_count(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i), v = persistence.void_of[t];
     if (persistence.creator[t] == 0 || v != k_none) add_to_sheet(complex, t, &cells->sheet);
-  }
-  peel(complex, curves, Protect::curves, &cells->sheet);
+  }));
+  TRY(peel(complex, curves, Protect::curves, &cells->sheet));
   TRY(number_rooms(context, complex, topology.label.span(), cells));
   TRY(number_walls(complex, curves, flat, tangents, topology, cells));
   TRY(link_rooms(cells));
@@ -16721,10 +16837,12 @@ static bool stays(const Cells& cells, const Wall& wall) {
 }
 
 /* Figure 17: takes out what would change the topology, until nothing does. */
-static void take_back(Array<uint8_t>* added, Cells* cells) {
+static Status take_back(Array<uint8_t>* added, Cells* cells) {
+  Pace pace(added->context());
   for (bool changed = true; changed;) {
     changed = false;
     for (uint32_t i = 0; i < cells->wall.size(); ++i) {
+      TRY(pace.after());
       const Wall& wall = cells->wall[i];
       if ((*added)[i] != 0 && !stays(*cells, wall)) {
         (*added)[i] = 0;
@@ -16738,6 +16856,7 @@ static void take_back(Array<uint8_t>* added, Cells* cells) {
       }
     }
   }
+  return {};
 }
 
 static Status fill_rooms(const Complex& complex, const Persistence& persistence,
@@ -16754,7 +16873,7 @@ static Status fill_rooms(const Complex& complex, const Persistence& persistence,
     const Wall& wall = cells->wall[i];
     (*added)[i] = !wall.present && wall.addable && wall.value < limit;
   }
-  take_back(added, cells);
+  TRY(take_back(added, cells));
   *any = false;
   for (const Room& r : cells->room) *any = *any || r.filled;
   return {};
@@ -16836,6 +16955,7 @@ Status thicken_and_prune(Context& context, const Complex& complex, const CurveEd
   const uint32_t outside_label = topology->label[complex.tet_count()];
   TRY(empty_rooms(context, outside_label, options.inside_first, &cells, &opened));
   begin_removal(&topology->walls);
+  Pace pace(context);
   for (uint32_t i = 0; i < cells.wall.size(); ++i) {
     for (uint32_t k = cells.start[i]; k < cells.start[i + 1]; ++k) {
       if (opened[i] != 0) {
@@ -16844,8 +16964,9 @@ Status thicken_and_prune(Context& context, const Complex& complex, const CurveEd
         add_to_sheet(complex, cells.triangle[k], &topology->walls);
       }
     }
+    TRY(pace.after(cells.start[i + 1] - cells.start[i]));
   }
-  peel(complex, curves, Protect::curves, &topology->walls);
+  TRY(peel(complex, curves, Protect::curves, &topology->walls));
   return label_rooms(complex, topology->walls, &topology->label);
 }
 
@@ -16905,15 +17026,15 @@ static Status count_components(Context& context, const Flow& flow, const Sheet& 
     return v;
   };
   *components = static_cast<uint32_t>(vertices);
-  for (uint32_t e = 0; e < complex.edge_count(); ++e) {
-    if (walls.degree[e] == 0 && !flow.curves.on_curve(e)) continue;
+  TRY(in_parts(context, complex.edge_count(), [&](size_t e) {
+    if (walls.degree[e] == 0 && !flow.curves.on_curve(static_cast<uint32_t>(e))) return;
     ++edges;
-    const uint32_t a = root_of(complex.edge[2 * size_t{e}]);
-    const uint32_t b = root_of(complex.edge[2 * size_t{e} + 1]);
-    if (a == b) continue;
+    const uint32_t a = root_of(complex.edge[2 * e]);
+    const uint32_t b = root_of(complex.edge[2 * e + 1]);
+    if (a == b) return;
     parent[a < b ? b : a] = a < b ? a : b;
     --*components;
-  }
+  }));
   for (const uint8_t in : walls.in) triangles += in;
   *euler = vertices - edges + triangles;
   return {};
@@ -17083,7 +17204,9 @@ static Status find_shared_ears(const Flow& flow, const Reconstruction& r, Shared
   const Sheet& walls = r.topology.walls;
   TRY(ears->first.assign(complex.edge_count(), k_none));
   TRY(ears->left_out_for.assign(complex.triangle_count(), k_none));
+  Pace pace(ears->first.context());
   for (uint32_t e = 0; e < complex.edge_count(); ++e) {
+    TRY(pace.after());
     if (walls.degree[e] < 3 || flow.curves.on_curve(e)) continue;
     Ear found, ear;
     uint32_t flat = 0;
@@ -17112,13 +17235,15 @@ static Status gather_own(const Reconstruction& r, const SharedEars& ears, OwnTri
   const auto is_own = [&](uint32_t t) {
     return owner[t] != k_none && ears.left_out_for[t] == k_none;
   };
-  for (uint32_t t = 0; t < owner.size(); ++t) {
+  TRY(in_parts(own->start.context(), owner.size(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
     if (is_own(t)) ++own->start[owner[t]];
-  }
+  }));
   own->triangle.shrink(starts_from_counts(own->start.span()));
-  for (uint32_t t = 0; t < owner.size(); ++t) {
+  TRY(in_parts(own->start.context(), owner.size(), [&](size_t i) {
+    const uint32_t t = static_cast<uint32_t>(i);
     if (is_own(t)) own->triangle[own->start[owner[t]]++] = t;
-  }
+  }));
   shift_starts_back(own->start.span());
   for (uint32_t p = 0; p < r.patches.size(); ++p) {
     const Span<const uint32_t> part = own->of(p);
@@ -17174,7 +17299,9 @@ static Status cut_out(const Flow& flow, const Reconstruction& r, Span<const uint
   local->position.clear();
   local->sample.clear();
   for (uint32_t c = 0; c < corners; ++c) local->parent[c] = c;
+  Pace pace(local->parent.context());
   for (uint32_t i = 0; i < part.size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t t = part[i], u = across(flow, r, t, k);
       if (u == k_none) continue;
@@ -17190,6 +17317,7 @@ static Status cut_out(const Flow& flow, const Reconstruction& r, Span<const uint
     }
   }
   for (uint32_t i = 0; i < part.size(); ++i) {
+    TRY(pace.after());
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t stored = turned_corner(r, part[i], k);
       const uint32_t root = corner_root(local->parent.span(), 3 * i + stored);
@@ -17282,12 +17410,15 @@ static Status refine_one(Context& context, const Flow& flow, const Reconstructio
                        static_cast<uint32_t>(local->position.size()), static_cast<uint32_t>(held),
                        static_cast<uint32_t>(refined->corner.size()),
                        static_cast<uint32_t>(local->triangle.size())};
-  for (size_t v = 0; v < local->position.size(); ++v) {
-    TRY(refined->position.push(local->position[v]));
-    TRY(refined->sample.push(v < held ? local->sample[v] : k_none));
-  }
-  for (const uint32_t v : local->triangle) TRY(refined->corner.push(v));
-  return {};
+  TRY(make_room_in_parts(local->position.size(), &refined->position));
+  TRY(make_room_in_parts(local->position.size(), &refined->sample));
+  TRY(make_room_in_parts(local->triangle.size(), &refined->corner));
+  TRY(in_parts(context, local->position.size(), [&](size_t v) {
+    refined->position.push_reserved(local->position[v]);
+    refined->sample.push_reserved(v < held ? local->sample[v] : k_none);
+  }));
+  return in_parts(context, local->triangle.size(),
+                  [&](size_t i) { refined->corner.push_reserved(local->triangle[i]); });
 }
 
 static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh* mesh) {
@@ -17297,13 +17428,17 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
     points += s.points - s.held;
     corners += s.corners;
   }
+  /* What an earlier round has left is not worth moving. */
+  mesh->position.clear();
+  mesh->sample.clear();
+  mesh->triangle.clear();
+  mesh->patch.clear();
   TRY(mesh->position.reserve(points));
   TRY(mesh->sample.reserve(points));
   TRY(mesh->triangle.resize(corners));
   TRY(mesh->patch.resize(corners / 3));
-  mesh->position.clear();
-  mesh->sample.clear();
-  TRY(mesh->position.context().checkpoint());
+  Context& context = mesh->position.context();
+  TRY(context.checkpoint());
   for (uint32_t v = 0; v < samples.size(); ++v) {
     mesh->position.push_reserved(samples[v]);
     mesh->sample.push_reserved(v);
@@ -17312,15 +17447,15 @@ static Status assemble(const Flow& flow, const RefinedPatches& refined, FlowMesh
   for (uint32_t p = 0; p < refined.slice.size(); ++p) {
     const Slice& s = refined.slice[p];
     const uint32_t first = static_cast<uint32_t>(mesh->position.size()) - s.held;
-    for (uint32_t i = s.held; i < s.points; ++i) {
-      mesh->position.push_reserved(refined.position[s.point + i]);
+    TRY(in_parts(context, s.points - s.held, [&](size_t i) {
+      mesh->position.push_reserved(refined.position[s.point + s.held + i]);
       mesh->sample.push_reserved(k_none);
-    }
-    for (uint32_t i = 0; i < s.corners; ++i, ++at) {
+    }));
+    TRY(in_parts(context, s.corners, [&](size_t i) {
       const uint32_t v = refined.corner[s.corner + i];
       mesh->triangle[at] = v < s.held ? refined.sample[s.point + v] : first + v;
-      mesh->patch[at / 3] = p;
-    }
+      mesh->patch[at++ / 3] = p;
+    }));
   }
   return {};
 }
@@ -17443,21 +17578,21 @@ static uint32_t curve_before(const flow::Flow& flow, uint32_t i) {
 static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& mesh,
                                  Surface* surface, FlowOutcome* outcome) {
   const size_t samples = flow.samples.position.size();
-  Array<uint32_t> number(outcome->vertex_of.context());
+  Context& context = outcome->vertex_of.context();
+  Array<uint32_t> number(context);
   TRY(number.assign(mesh.position.size(), k_none));
-  for (const uint32_t v : mesh.triangle) number[v] = 0;
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t i) { number[mesh.triangle[i]] = 0; }));
   for (const uint32_t v : flow.samples.at) number[v] = 0;
   TRY(surface->position.reserve(mesh.position.size()));
   uint32_t used = 0;
-  for (size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == k_none) continue;
+  TRY(in_parts(context, number.size(), [&](size_t v) {
+    if (number[v] == k_none) return;
     number[v] = used++;
     surface->position.push_reserved(mesh.position[v]);
-  }
+  }));
   TRY(surface->triangle.resize(mesh.triangle.size()));
-  for (size_t i = 0; i < mesh.triangle.size(); ++i) {
-    surface->triangle[i] = number[mesh.triangle[i]];
-  }
+  TRY(in_parts(context, mesh.triangle.size(),
+               [&](size_t i) { surface->triangle[i] = number[mesh.triangle[i]]; }));
   TRY(surface->patch.copy(mesh.patch.span()));
   number.shrink(samples);
   outcome->vertex_of = static_cast<Array<uint32_t>&&>(number);
@@ -17765,6 +17900,7 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
   }
   TRY(take_flow_curves(flow, outcome->vertex_of.span(), surface));
   TRY(surface->constraint_normal.assign(surface->position.size(), Vec3{}));
+  TRY(context.checkpoint());
   Array<Vec3> offset(context);
   if (!settings.normal.empty()) {
     TRY(take_flow_normals(flow, settings.normal, outcome->vertex_of.span(), surface, &offset));
@@ -20204,14 +20340,19 @@ Status PointGrid::build(Span<const Vec3> points) {
   TRY(start_.assign(size_t{size_.x} * size_.y * size_.z + 1, 0));
   TRY(item_.resize(points.size()));
   TRY(axis_.resize(points.size()));
-  for (const Vec3& p : points) ++start_[index_of(p)];
+  Context& context = start_.context();
+  TRY(in_parts(context, points.size(), [&](size_t i) { ++start_[index_of(points[i])]; }));
   starts_from_counts(start_.span());
-  for (uint32_t i = 0; i < points.size(); ++i) {
-    item_[start_[index_of(points[i])]++] = {points[i], i};
-  }
+  TRY(in_parts(context, points.size(), [&](size_t i) {
+    item_[start_[index_of(points[i])]++] = {points[i], static_cast<uint32_t>(i)};
+  }));
   /* Each start stands at the next one's place now. */
   shift_starts_back(start_.span());
-  for (size_t c = 0; c + 1 < start_.size(); ++c) make_tree({start_[c], start_[c + 1]});
+  Pace pace(context);
+  for (size_t c = 0; c + 1 < start_.size(); ++c) {
+    make_tree({start_[c], start_[c + 1]});
+    TRY(pace.after(size_t{start_[c + 1]} - start_[c]));
+  }
   return {};
 }
 
@@ -20768,8 +20909,9 @@ static Status take_slots(DelaunayBuilder* b) {
   if (used + missing > b->most_tets) {
     return fail(Code::too_large, "the Delaunay triangulation has more tetrahedra than allowed");
   }
+  TRY(make_room_in_parts(missing, &b->tets));
   for (size_t i = 0; i < missing; ++i) {
-    TRY(b->tets.push({}));
+    b->tets.push_reserved({});
     TRY(b->mark.push(k_unseen));
   }
   for (size_t i = 0; i < b->outline.size(); ++i) {
@@ -20903,13 +21045,13 @@ static Status finish(Context& context, DelaunayBuilder* b, Span<const uint32_t> 
   TRY(place.assign(slots, 0));
   for (const uint32_t slot : b->vacant) place[slot] = k_none;
   uint32_t count = 0;
-  for (uint32_t slot = 0; slot < slots; ++slot) {
+  TRY(in_parts(context, slots, [&](size_t slot) {
     const bool kept = place[slot] != k_none && !is_ghost(b->tets[slot]);
     place[slot] = kept ? count++ : k_none;
-  }
+  }));
   TRY(context.checkpoint());
-  for (uint32_t slot = 0; slot < slots; ++slot) {
-    if (place[slot] == k_none) continue;
+  TRY(in_parts(context, slots, [&](size_t slot) {
+    if (place[slot] == k_none) return;
     Tetrahedron t = b->tets[slot];
     for (uint32_t i = 0; i < 4; ++i) {
       t.vertex[i] = order[t.vertex[i]];
@@ -20917,7 +21059,7 @@ static Status finish(Context& context, DelaunayBuilder* b, Span<const uint32_t> 
       t.across[i] = beyond == k_none ? k_none : 4 * beyond + (t.across[i] & 3);
     }
     b->tets[place[slot]] = t;
-  }
+  }));
   b->tets.shrink(count);
   delaunay->tets = static_cast<Array<Tetrahedron>&&>(b->tets);
   return {};
@@ -21134,6 +21276,9 @@ struct Box {
   Vec3 low, high;
 };
 
+/* Of passes over the cells, most of which are empty. */
+constexpr size_t k_cells_per_checkpoint = 1u << 18;
+
 /* Cells of a uniform grid along each axis. */
 struct CrossingGrid {
   Vec3 low;
@@ -21196,10 +21341,9 @@ static bool segment_meets_flat(const Vec3& p, const Vec3& q, const Vec3& a, cons
   return inside;
 }
 
-/* Whether the closed segment has a point in the closed triangle. */
-static bool segment_meets(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b,
-                          const Vec3& c) {
-  const int p_side = sign_of(orient3d(a, b, c, p)), q_side = sign_of(orient3d(a, b, c, q));
+/* Whether the closed segment has a point in the closed triangle, on whose sides its ends are. */
+static bool segment_meets(const Vec3& p, int p_side, const Vec3& q, int q_side, const Vec3& a,
+                          const Vec3& b, const Vec3& c) {
   if (p_side * q_side > 0) return false;
   if (p_side == 0 && q_side == 0) return segment_meets_flat(p, q, a, b, c);
   const int ab = sign_of(orient3d(p, q, a, b)), bc = sign_of(orient3d(p, q, b, c));
@@ -21218,6 +21362,28 @@ static bool fold_over(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q
 
 static bool repeats_corner(const uint32_t* t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+/* The sides of a triangle's plane that the corners of another are on; false where all are on one, */
+/* and the two have no point in common (T. Moeller, "A Fast Triangle-Triangle Intersection Test", */
+/* 1997). */
+static bool reaches_plane(const Vec3* position, const uint32_t* triangle, const uint32_t* plane,
+                          int* side) {
+  const Vec3 &a = position[plane[0]], &b = position[plane[1]], &c = position[plane[2]];
+  for (int k = 0; k < 3; ++k) side[k] = sign_of(orient3d(a, b, c, position[triangle[k]]));
+  return side[0] == 0 || side[0] != side[1] || side[0] != side[2];
+}
+
+/* Whether one of a triangle's edges meets another triangle. */
+static bool edges_meet(const Vec3* position, const uint32_t* edges, const int* side,
+                       const uint32_t* triangle) {
+  const Vec3 &a = position[triangle[0]], &b = position[triangle[1]], &c = position[triangle[2]];
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t next = (k + 1) % 3;
+    const Vec3 &p = position[edges[k]], &q = position[edges[next]];
+    if (segment_meets(p, side[k], q, side[next], a, b, c)) return true;
+  }
+  return false;
 }
 
 bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_t* b) {
@@ -21241,19 +21407,18 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
     const uint32_t* const t[2] = {a, b};
     const uint32_t at[2] = {at_a, at_b};
     for (int k = 0; k < 2; ++k) {
-      const uint32_t* const s = t[k];
-      const uint32_t* const r = t[1 - k];
-      if (segment_meets(p[s[(at[k] + 1) % 3]], p[s[(at[k] + 2) % 3]], p[r[0]], p[r[1]], p[r[2]])) {
-        return true;
-      }
+      const Vec3 &u = p[t[k][(at[k] + 1) % 3]], &v = p[t[k][(at[k] + 2) % 3]];
+      const Vec3 &d = p[t[1 - k][0]], &e = p[t[1 - k][1]], &f = p[t[1 - k][2]];
+      const int u_side = sign_of(orient3d(d, e, f, u)), v_side = sign_of(orient3d(d, e, f, v));
+      /* On one side of the other's plane, but for the corner that they share. */
+      if (u_side * v_side > 0) return false;
+      if (segment_meets(u, u_side, v, v_side, d, e, f)) return true;
     }
     return false;
   }
-  for (uint32_t k = 0; k < 3; ++k) {
-    if (segment_meets(p[a[k]], p[a[(k + 1) % 3]], p[b[0]], p[b[1]], p[b[2]])) return true;
-    if (segment_meets(p[b[k]], p[b[(k + 1) % 3]], p[a[0]], p[a[1]], p[a[2]])) return true;
-  }
-  return false;
+  int side_of_a[3], side_of_b[3];
+  if (!reaches_plane(p, a, b, side_of_a) || !reaches_plane(p, b, a, side_of_b)) return false;
+  return edges_meet(p, a, side_of_a, b) || edges_meet(p, b, side_of_b, a);
 }
 
 /* ---- All triangles ------------------------------------------------------------------------------ */
@@ -21292,95 +21457,106 @@ static CellRange cells_of(const CrossingGrid& grid, const Box& box) {
 }
 
 template <typename Visit>
-static void each_cell(const CrossingGrid& grid, const CellRange& range, const Visit& visit) {
+static Status each_cell(const CrossingGrid& grid, const CellRange& range, Pace* pace,
+                        const Visit& visit) {
+  const size_t layer =
+      size_t{range.high[0] - range.low[0] + 1} * (range.high[1] - range.low[1] + 1);
   for (uint32_t z = range.low[2]; z <= range.high[2]; ++z) {
+    TRY(pace->after(layer));
     for (uint32_t y = range.low[1]; y <= range.high[1]; ++y) {
       for (uint32_t x = range.low[0]; x <= range.high[0]; ++x) {
         visit((z * grid.size[1] + y) * grid.size[0] + x);
       }
     }
   }
+  return {};
 }
 
 /* Cells about as large as the mean triangle. */
-static CrossingGrid choose_grid(Span<const Vec3> position, Span<const uint32_t> triangle) {
-  CrossingGrid grid;
+static Status choose_grid(Context& context, Span<const Vec3> position,
+                          Span<const uint32_t> triangle, CrossingGrid* grid) {
   Box all = box_of(position, triangle.data());
   double sum = 0.0;
-  for (size_t t = 0; t < triangle.size(); t += 3) {
-    const Box box = box_of(position, &triangle[t]);
+  TRY(in_parts(context, triangle.size() / 3, [&](size_t t) {
+    const Box box = box_of(position, &triangle[3 * t]);
     const Vec3 extent = box.high - box.low;
     sum += larger(extent.x, larger(extent.y, extent.z));
     all.low = {smaller(all.low.x, box.low.x), smaller(all.low.y, box.low.y),
                smaller(all.low.z, box.low.z)};
     all.high = {larger(all.high.x, box.high.x), larger(all.high.y, box.high.y),
                 larger(all.high.z, box.high.z)};
-  }
-  grid.low = all.low;
+  }));
+  grid->low = all.low;
   const Vec3 extent = all.high - all.low;
   const double greatest = larger(extent.x, larger(extent.y, extent.z));
-  if (!(sum > 0.0)) return grid;
+  if (!(sum > 0.0)) return {};
   const double cell = larger(sum / (static_cast<double>(triangle.size()) / 3.0), greatest / 200.0);
   const double along[3] = {extent.x, extent.y, extent.z};
-  grid.per_cell = 1.0 / cell;
-  for (int k = 0; k < 3; ++k) grid.size[k] = static_cast<uint32_t>(along[k] / cell) + 1;
-  return grid;
+  grid->per_cell = 1.0 / cell;
+  for (int k = 0; k < 3; ++k) grid->size[k] = static_cast<uint32_t>(along[k] / cell) + 1;
+  return {};
 }
 
-/* Triangles that lie close are many in some cells, so the pairs that are looked at are counted. */
-static Status pause_after_pairs(Context& context, uint32_t* pairs) {
-  constexpr uint32_t k_pairs_per_checkpoint = 1024;
-  if (++*pairs < k_pairs_per_checkpoint) return {};
-  *pairs = 0;
-  return context.checkpoint();
+/* Turns the counts of cells into their starts. */
+static Status start_cells(Context& context, Span<uint32_t> start) {
+  uint32_t sum = 0;
+  return in_parts<k_cells_per_checkpoint>(context, start.size(), [&](size_t i) {
+    const uint32_t count = start[i];
+    start[i] = sum;
+    sum += count;
+  });
 }
 
 Status find_crossings(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                       size_t most, Array<uint32_t>* pairs) {
+  constexpr size_t k_steps_of_pair = 4, k_items_of_step = 4;
   pairs->clear();
   if (triangle.empty()) return {};
   const uint32_t count = static_cast<uint32_t>(triangle.size() / 3);
-  const CrossingGrid grid = choose_grid(position, triangle);
+  CrossingGrid grid;
   Array<uint32_t> start(context), item(context), met(context);
-  TRY(start.assign(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0));
+  TRY(choose_grid(context, position, triangle, &grid));
+  TRY(start.resize(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1));
+  TRY(in_parts<k_cells_per_checkpoint>(context, start.size(), [&](size_t i) { start[i] = 0; }));
   TRY(context.checkpoint());
   TRY(met.assign(count, k_none));
   const auto range_of = [&](uint32_t t) {
     return cells_of(grid, box_of(position, &triangle[3 * size_t{t}]));
   };
-  TRY(in_parts(context, count, [&](size_t t) {
-    each_cell(grid, range_of(static_cast<uint32_t>(t)), [&](uint32_t cell) { ++start[cell]; });
-  }));
-  TRY(item.resize(starts_from_counts(start.span())));
+  Pace pace(context);
+  for (uint32_t t = 0; t < count; ++t) {
+    TRY(each_cell(grid, range_of(t), &pace, [&](uint32_t cell) { ++start[cell]; }));
+  }
+  TRY(start_cells(context, start.span()));
+  TRY(item.resize(start.back()));
   TRY(context.checkpoint());
-  TRY(in_parts(context, count, [&](size_t i) {
-    const uint32_t t = static_cast<uint32_t>(i);
-    each_cell(grid, range_of(t), [&](uint32_t cell) { item[start[cell]++] = t; });
-  }));
+  for (uint32_t t = 0; t < count; ++t) {
+    TRY(each_cell(grid, range_of(t), &pace, [&](uint32_t cell) { item[start[cell]++] = t; }));
+  }
   shift_starts_back(start.span());
   TRY(context.checkpoint());
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
-  uint32_t looked_at = 0;
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
     const Box box = box_of(position, &triangle[3 * size_t{t}]);
     Array<uint32_t>& found = *pairs;
     Status status;
-    each_cell(grid, cells_of(grid, box), [&](uint32_t cell) {
+    TRY(each_cell(grid, cells_of(grid, box), &pace, [&](uint32_t cell) {
+      /* Triangles that lie close are many in some cells. */
+      pace.add((start[cell + 1] - start[cell]) / k_items_of_step);
       for (uint32_t i = start[cell]; i < start[cell + 1]; ++i) {
         const uint32_t other = item[i];
         if (other >= t || met[other] == t) continue;
         met[other] = t;
         const uint32_t* const corners = &triangle[3 * size_t{other}];
         if (apart(box, box_of(position, corners))) continue;
-        if (status.ok()) status = pause_after_pairs(context, &looked_at);
+        if (status.ok()) status = pace.after(k_steps_of_pair);
         if (!status.ok()) return;
         if (!triangles_cross(position, corners, &triangle[3 * size_t{t}])) continue;
         if (status.ok()) status = found.push(other);
         if (status.ok()) status = found.push(t);
       }
-    });
+    }));
     TRY(status);
-    if (t % 4096 == 0) TRY(context.checkpoint());
   }
   return {};
 }
@@ -21512,6 +21688,15 @@ static TwoParts wide_triple(const WideVec3& u, const WideVec3& v, const WideVec3
   return det;
 }
 
+/* Each of the three terms is the outcome of four operations, and passes up to three sums: their */
+/* errors, at most 2^-100 of the permanent each, stay far below the bound. */
+Filtered orient3d_wide(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  double permanent = 0.0;
+  const TwoParts det =
+      wide_triple(wide_vector(a, b), wide_vector(a, c), wide_vector(a, d), &permanent);
+  return {det.high, std::fabs(det.high) > 0x1p-95 * permanent};
+}
+
 /* lift(u) det(v, w, t), again with its permanent. */
 static TwoParts wide_lift_term(const WideVec3& u, const WideVec3& v, const WideVec3& w,
                                const WideVec3& t, double* permanent) {
@@ -21627,7 +21812,7 @@ static uint64_t place_round(const Vec3& p, uint64_t last_round) {
 }
 
 /* The round, then the place along the curve. */
-static void set_place_keys(Span<const Vec3> points, Span<BitsKey> keys) {
+static Status set_place_keys(Context& context, Span<const Vec3> points, Span<BitsKey> keys) {
   Vec3 low = points[0];
   Vec3 high = points[0];
   for (const Vec3& p : points) {
@@ -21639,12 +21824,13 @@ static void set_place_keys(Span<const Vec3> points, Span<BitsKey> keys) {
   const double step = extent > 0.0 ? k_cells / extent : 0.0;
   uint64_t last_round = 0;
   for (size_t rest = points.size(); rest > 512; rest >>= 3) ++last_round;
-  for (uint32_t i = 0; i < points.size(); ++i) {
+  return in_parts(context, points.size(), [&](size_t i) {
     const Vec3 cell = step * (points[i] - low);
     const uint64_t place = curve_place(static_cast<uint32_t>(cell.x), static_cast<uint32_t>(cell.y),
                                        static_cast<uint32_t>(cell.z));
-    keys[i] = {place_round(points[i], last_round) << (3 * k_place_bits) | place, i};
-  }
+    keys[i] = {place_round(points[i], last_round) << (3 * k_place_bits) | place,
+               static_cast<uint32_t>(i)};
+  });
 }
 
 static bool place_before(const Vec3& p, const Vec3& q) {
@@ -21676,7 +21862,7 @@ Status delaunay_order(Context& context, Span<const Vec3> points, Array<uint32_t>
   TRY(same_as->resize(points.size()));
   order->clear();
   if (points.empty()) return {};
-  set_place_keys(points, keys.span());
+  TRY(set_place_keys(context, points, keys.span()));
   TRY(radix_sort(context, &keys));
   sort_cells(points, keys.span());
   for (const BitsKey& key : keys) {
@@ -21701,14 +21887,16 @@ static uint32_t digit_at(const BitsKey& key, int shift) {
   return static_cast<uint32_t>(key.bits >> shift) & (k_digit_values - 1);
 }
 
-/* One stable pass. False where all digits are equal, and nothing was done. */
-static bool sort_by_digit(Span<const BitsKey> from, int shift, Span<BitsKey> to) {
+/* One stable pass. Where all digits are equal nothing is done, and *moved is false. */
+static Status sort_by_digit(Context& context, Span<const BitsKey> from, int shift, Span<BitsKey> to,
+                            bool* moved) {
   uint32_t first[k_digit_values] = {};
-  for (const BitsKey& key : from) ++first[digit_at(key, shift)];
-  if (first[digit_at(from[0], shift)] == from.size()) return false;
+  TRY(in_parts(context, from.size(), [&](size_t i) { ++first[digit_at(from[i], shift)]; }));
+  *moved = first[digit_at(from[0], shift)] != from.size();
+  if (!*moved) return {};
   starts_from_counts({first, k_digit_values});
-  for (const BitsKey& key : from) to[first[digit_at(key, shift)]++] = key;
-  return true;
+  return in_parts(context, from.size(),
+                  [&](size_t i) { to[first[digit_at(from[i], shift)]++] = from[i]; });
 }
 
 Status radix_sort(Context& context, Array<BitsKey>* keys) {
@@ -21717,7 +21905,9 @@ Status radix_sort(Context& context, Array<BitsKey>* keys) {
   TRY(other.resize(keys->size()));
   for (int shift = 0; shift < 64; shift += k_digit_bits) {
     TRY(context.checkpoint());
-    if (!sort_by_digit(keys->span(), shift, other.span())) continue;
+    bool moved = false;
+    TRY(sort_by_digit(context, keys->span(), shift, other.span(), &moved));
+    if (!moved) continue;
     Array<BitsKey> kept = static_cast<Array<BitsKey>&&>(*keys);
     *keys = static_cast<Array<BitsKey>&&>(other);
     other = static_cast<Array<BitsKey>&&>(kept);
@@ -22284,11 +22474,10 @@ Status find_sides(const Complex& complex, const Persistence& persistence, const 
     if (label != topology.label[outside]) number[label] = i + 1;
   }
   TRY(side->resize(2 * size_t{complex.triangle_count()}));
-  for (size_t i = 0; i < side->size(); ++i) {
+  return in_parts(side->context(), side->size(), [&](size_t i) {
     const uint32_t t = complex.triangle_side[i];
     (*side)[i] = number[topology.label[t == k_none ? outside : t]];
-  }
-  return {};
+  });
 }
 
 /* Whether a triangle's stored order passes edge number k from its lesser vertex to its greater. */
@@ -22309,17 +22498,19 @@ Status orient_walls(Context& context, const Complex& complex, const Sheet& walls
   Array<uint32_t> queue(context);
   TRY(queue.reserve(triangles));
   TRY(turned->assign(triangles, k_open));
-  for (uint32_t t = 0; t < triangles; ++t) {
+  TRY(in_parts(context, triangles, [&](size_t t) {
     /* It is counter-clockwise seen from its second side; the lesser void is in front. */
-    const uint32_t first = side[2 * size_t{t}], second = side[2 * size_t{t} + 1];
-    if (walls.in[t] == 0 || first == second) continue;
+    const uint32_t first = side[2 * t], second = side[2 * t + 1];
+    if (walls.in[t] == 0 || first == second) return;
     (*turned)[t] = first < second;
-    queue.push_reserved(t);
-  }
+    queue.push_reserved(static_cast<uint32_t>(t));
+  }));
+  Pace pace(context);
   size_t head = 0;
   for (uint32_t seed = 0; seed <= triangles; ++seed) {
     for (; head < queue.size(); ++head) {
       const uint32_t t = queue[head];
+      TRY(pace.after());
       for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
         if (walls.degree[e] != 2) continue;
@@ -22867,7 +23058,7 @@ static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
 }
 
 /* Sizes were made from the two ends of an edge only; here every neighbour has its say. */
-static void grade_sizes(LoopRefinement* r, const Stars& stars) {
+static Status grade_sizes(LoopRefinement* r, const Stars& stars) {
   for (uint32_t v = r->rim; v < r->size.size(); ++v) {
     double least = 0.0, most = DBL_MAX;
     for (uint32_t k = stars.start[v]; k < stars.start[v + 1]; ++k) {
@@ -22877,14 +23068,16 @@ static void grade_sizes(LoopRefinement* r, const Stars& stars) {
       most = smaller(most, r->size[u] + reach);
     }
     r->size[v] = least > most ? 0.5 * (least + most) : smaller(larger(r->spacing, least), most);
+    TRY(pause_refining(r));
   }
+  return {};
 }
 
 static Status relax_and_flip(LoopRefinement* r, int tangential, int free, Stars* stars) {
   if (!r->may_relax) tangential = free = 0;
   for (int sweep = 0; sweep < tangential; ++sweep) TRY(relax_inner(r, true, stars));
   for (int sweep = 0; sweep < free; ++sweep) TRY(relax_inner(r, false, stars));
-  if (r->may_relax) grade_sizes(r, *stars);
+  if (r->may_relax) TRY(grade_sizes(r, *stars));
   return flip_everywhere(r);
 }
 
@@ -31589,7 +31782,9 @@ static Status sort_at_border(const Graph& graph, uint32_t node, uint32_t left,
                              Span<Leaving> leaving, Array<Leaving>* kept) {
   TRY(kept->copy(leaving));
   for (const double part : k_parts) {
-    if (!sort_by_part(graph, node, part, leaving).ok() || !all_differ(leaving)) continue;
+    const Status status = sort_by_part(graph, node, part, leaving);
+    if (!status.ok() && status.code != Code::tangent_normal) return status;
+    if (!status.ok() || !all_differ(leaving)) continue;
     const BorderSide side = border_side(graph, leaving);
     if (side.left != k_none && (left == k_none || side.left == left)) return {};
   }
@@ -36050,10 +36245,67 @@ namespace wireskin {
 
 #ifdef WIRESKIN_DEBUG
 
+static Status stop_on_fault(const Status& status) {
+  const bool stopped = status.code == Code::out_of_memory || status.code == Code::memory_cap ||
+                       status.code == Code::cancelled;
+  WIRESKIN_ASSERT(status.ok() || stopped);
+  return stopped ? status : Status{};
+}
+
+static uint64_t key_of_edge(uint32_t a, uint32_t b) {
+  return a < b ? uint64_t{a} << 32 | b : uint64_t{b} << 32 | a;
+}
+
+static bool holds_key(Span<const uint64_t> sorted, uint64_t key) {
+  size_t low = 0, high = sorted.size();
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    (sorted[middle] < key ? low : high) = sorted[middle] < key ? middle + 1 : middle;
+  }
+  return low < sorted.size() && sorted[low] == key;
+}
+
+/* The pieces that curves cut the triangles into. */
+static Status count_pieces(Context& context, const Surface& surface, int32_t* pieces) {
+  Array<uint64_t> curve_edge(context);
+  Array<uint32_t> twin(context), stack(context);
+  Array<uint8_t> seen(context);
+  const Span<const uint32_t> corner = surface.triangle.span();
+  TRY(curve_edge.reserve(surface.curve_edge.size() / 2));
+  const uint32_t vertices = static_cast<uint32_t>(surface.position.size());
+  TRY(stop_on_fault(mesh::find_twins(vertices, corner, &twin)));
+  TRY(stack.reserve(corner.size() / 3));
+  TRY(seen.assign(corner.size() / 3, 0));
+  for (size_t e = 0; e < surface.curve_edge.size(); e += 2) {
+    curve_edge.push_reserved(key_of_edge(surface.curve_edge[e], surface.curve_edge[e + 1]));
+  }
+  sort(curve_edge.span(), [](uint64_t a, uint64_t b) { return a < b; });
+  *pieces = 0;
+  for (uint32_t first = 0; first < seen.size(); ++first) {
+    if (seen[first]) continue;
+    ++*pieces;
+    seen[first] = 1;
+    stack.push_reserved(first);
+    while (!stack.empty()) {
+      const uint32_t t = stack.back();
+      stack.pop();
+      for (uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        if (twin[h] == k_none || seen[twin[h] / 3]) continue;
+        const uint64_t key = key_of_edge(corner[h], corner[mesh::next_half_edge(h)]);
+        if (holds_key(curve_edge.span(), key)) continue;
+        seen[twin[h] / 3] = 1;
+        stack.push_reserved(twin[h] / 3);
+      }
+    }
+  }
+  return {};
+}
+
 /* Nodes less segments of the patches' borders, and of each patch its inside: a disc, or with */
-/* several loops a sphere with that many holes, whatever curves lie in it. */
+/* several loops a sphere with that many holes, whatever curves lie in it. A loop that passes a node */
+/* twice, like an eight, may bound one disc more than it seems: these show in the count of pieces. */
 static Status predict_euler_characteristic(Context& context, const network::Network& network,
-                                           int32_t* expected) {
+                                           const Surface& surface, int32_t* expected) {
   Array<uint8_t> on_border(context), used(context);
   TRY(on_border.assign(network.segment.size(), 0));
   for (uint32_t h : network.loop.item) on_border[h / 2] = 1;
@@ -36064,7 +36316,7 @@ static Status predict_euler_characteristic(Context& context, const network::Netw
     nodes = nodes > s.to ? nodes : s.to + 1;
   }
   TRY(used.assign(nodes, 0));
-  *expected = 0;
+  TRY(count_pieces(context, surface, expected));
   for (size_t s = 0; s < on_border.size(); ++s) {
     const network::Segment& segment = network.segment[s];
     if (!on_border[s] || segment.from == k_none) continue;  /* a closed curve comes to nought */
@@ -36073,16 +36325,9 @@ static Status predict_euler_characteristic(Context& context, const network::Netw
   }
   for (uint8_t node : used) *expected += node;
   for (uint32_t p = 0; p < network.patches(); ++p) {
-    *expected += 2 - static_cast<int32_t>(network.patch_start[p + 1] - network.patch_start[p]);
+    *expected += 1 - static_cast<int32_t>(network.patch_start[p + 1] - network.patch_start[p]);
   }
   return {};
-}
-
-static Status stop_on_fault(const Status& status) {
-  const bool stopped = status.code == Code::out_of_memory || status.code == Code::memory_cap ||
-                       status.code == Code::cancelled;
-  WIRESKIN_ASSERT(status.ok() || stopped);
-  return stopped ? status : Status{};
 }
 
 #endif
@@ -36091,7 +36336,7 @@ Status verify_surface(Context& context, const network::Network& network, Span<co
                       const Surface& surface) {
 #ifdef WIRESKIN_DEBUG
   int32_t expected = 0;
-  TRY(predict_euler_characteristic(context, network, &expected));
+  TRY(predict_euler_characteristic(context, network, surface, &expected));
   mesh::Expectations expectations;
   expectations.position = position;
   expectations.triangle = surface.triangle.span();

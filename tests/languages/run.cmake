@@ -45,15 +45,12 @@ elseif(LANGUAGE STREQUAL "rust")
       -o ${WORK}/surface_net -L ${folder} -l static=wireskin -l m)
   run(${WORK}/surface_net ${net} ${WORK}/out.obj)
 elseif(LANGUAGE STREQUAL "javascript")
-  if(NOT NODE OR NOT CXX OR NOT CC OR NOT EXISTS /usr/include/wasm32-wasi)
-    message("skipped: node, clang-14 or wasi-libc is not here")
+  if(NOT NODE OR NOT CC OR NOT EXISTS ${WASM_OBJECT})
+    message("skipped: node or clang-14 is not here, or golden/cross/wasm has built no object")
     return()
   endif()
-  # As the example says.
-  set(target --target=wasm32-wasi)
-  run(${CXX} ${target} -std=c++17 -O2 -fno-exceptions -fno-rtti -fno-threadsafe-statics -I${SINGLE}
-      -x c++ -DWIRESKIN_IMPLEMENTATION -c ${SINGLE}/wireskin.h -o ${WORK}/wireskin.o)
-  run(${CC} ${target} -mexec-model=reactor ${WORK}/wireskin.o -lm -o ${WORK}/wireskin.wasm
+  # As the example says, but for the object, which golden/cross/wasm made with the same flags.
+  run(${CC} --target=wasm32-wasi -mexec-model=reactor ${WASM_OBJECT} -lm -o ${WORK}/wireskin.wasm
       -Wl,--export=malloc,--export=free,--export=wsk_build,--export=wsk_status_name
       -Wl,--export=wsk_surface_get_view,--export=wsk_surface_free)
   run(${NODE} ${ROOT}/examples/javascript/surface_net.mjs ${WORK}/wireskin.wasm ${net}
