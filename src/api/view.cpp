@@ -45,6 +45,15 @@ static const uint32_t* write_indices(unsigned char* block, size_t offset,
   return reinterpret_cast<const uint32_t*>(block + offset);
 }
 
+// Of a million vertices they are so many that fresh memory alone takes its time.
+static Status write_triangles(Context& context, const Array<uint32_t>& triangle,
+                              unsigned char* block, const uint32_t** to) {
+  constexpr size_t k_part = 1u << 17;
+  uint32_t* const written = reinterpret_cast<uint32_t*>(block);
+  *to = triangle.empty() ? nullptr : written;
+  return in_parts<k_part>(context, triangle.size(), [&](size_t i) { written[i] = triangle[i]; });
+}
+
 static Status write_curvatures(Context& context, const Surface& surface,
                                const SurfaceLayout& layout, const Scale& curvatures,
                                unsigned char* block, wsk_surface_view* view) {
@@ -101,7 +110,7 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   TRY(write_curvatures(context, surface, layout, curvatures, block, &view));
   view.vertex_curve = write_indices(block, layout.vertex_curve, surface.vertex_curve);
   TRY(context.checkpoint());
-  view.triangles = write_indices(block, layout.triangle, surface.triangle);
+  TRY(write_triangles(context, surface.triangle, block + layout.triangle, &view.triangles));
   TRY(context.checkpoint());
   view.triangle_patch = write_indices(block, layout.patch, surface.patch);
   view.curve_edges = write_indices(block, layout.edges, surface.curve_edge);

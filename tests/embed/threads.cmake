@@ -4,7 +4,7 @@ include(${ROOT}/tests/embed/start.cmake)
 look_for(ThreadSanitizer clang++)
 if(found)
   execute_process(
-    COMMAND clang++ -std=c++17 -O1 -g1 -fsanitize=thread -pthread -I${WORK} -I${ROOT}/tests
+    COMMAND clang++ -std=c++17 -O0 -g1 -fsanitize=thread -pthread -I${WORK} -I${ROOT}/tests
             ${ROOT}/tests/embed/threads_main.cpp ${implementation} ${scene_sources}
             -o ${WORK}/threads
     COMMAND_ERROR_IS_FATAL ANY)

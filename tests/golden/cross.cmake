@@ -39,7 +39,7 @@ check_target(armhf arm-linux-gnueabihf-g++ "-O1 -static" "qemu-arm-static")
 check_target(s390x s390x-linux-gnu-g++ "-O1 -static" "qemu-s390x-static")
 check_target(ppc64 powerpc64-linux-gnu-g++ "-O1 -static" "qemu-ppc64-static")
 check_target(riscv64 riscv64-linux-gnu-g++ "-O1 -static" "qemu-riscv64-static")
-check_target(windows x86_64-w64-mingw32-g++ "-O2 -static" "wine64")
+check_target(windows x86_64-w64-mingw32-g++ "-O1 -static" "wine64")
 if(EXISTS /usr/include/wasm32-wasi OR NOT MACHINE STREQUAL "wasm")
   check_target(wasm clang++-14 "-O2 --target=wasm32-wasi -fno-exceptions"
                "node --no-warnings ${ROOT}/tests/golden/run_wasi.mjs")
