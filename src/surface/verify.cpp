@@ -27,8 +27,27 @@ static bool holds_key(Span<const uint64_t> sorted, uint64_t key) {
   return low < sorted.size() && sorted[low] == key;
 }
 
-// The pieces that curves cut the triangles into.
-static Status count_pieces(Context& context, const Surface& surface, int32_t* pieces) {
+// Patches with a node that their border passes twice, like an eight.
+static Status find_pinched(const network::Network& network, uint32_t nodes,
+                           Array<uint8_t>* pinched) {
+  Array<uint32_t> passed_by(pinched->context());
+  TRY(pinched->assign(network.patches(), 0));
+  TRY(passed_by.assign(nodes, k_none));
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    for (const uint32_t h : network.cycle(p)) {
+      const network::Segment& segment = network.segment[h / 2];
+      const uint32_t from = h % 2 == 0 ? segment.from : segment.to;
+      if (from == k_none) continue;
+      if (passed_by[from] == p) (*pinched)[p] = 1;
+      passed_by[from] = p;
+    }
+  }
+  return {};
+}
+
+// The pieces that curves cut the triangles of pinched patches into.
+static Status count_pieces(Context& context, const Surface& surface, Span<const uint8_t> pinched,
+                           int32_t* pieces) {
   Array<uint64_t> curve_edge(context);
   Array<uint32_t> twin(context), stack(context);
   Array<uint8_t> seen(context);
@@ -44,7 +63,7 @@ static Status count_pieces(Context& context, const Surface& surface, int32_t* pi
   sort(curve_edge.span(), [](uint64_t a, uint64_t b) { return a < b; });
   *pieces = 0;
   for (uint32_t first = 0; first < seen.size(); ++first) {
-    if (seen[first]) continue;
+    if (seen[first] || !pinched[surface.patch[first]]) continue;
     ++*pieces;
     seen[first] = 1;
     stack.push_reserved(first);
@@ -64,11 +83,11 @@ static Status count_pieces(Context& context, const Surface& surface, int32_t* pi
 }
 
 // Nodes less segments of the patches' borders, and of each patch its inside: a disc, or with
-// several loops a sphere with that many holes, whatever curves lie in it. A loop that passes a node
-// twice, like an eight, may bound one disc more than it seems: these show in the count of pieces.
+// several loops a sphere with that many holes, whatever curves lie in it. The inside of a pinched
+// patch may be one disc or several, which the network does not tell: there its pieces are counted.
 static Status predict_euler_characteristic(Context& context, const network::Network& network,
                                            const Surface& surface, int32_t* expected) {
-  Array<uint8_t> on_border(context), used(context);
+  Array<uint8_t> on_border(context), used(context), pinched(context);
   TRY(on_border.assign(network.segment.size(), 0));
   for (uint32_t h : network.loop.item) on_border[h / 2] = 1;
   uint32_t nodes = 0;
@@ -78,7 +97,8 @@ static Status predict_euler_characteristic(Context& context, const network::Netw
     nodes = nodes > s.to ? nodes : s.to + 1;
   }
   TRY(used.assign(nodes, 0));
-  TRY(count_pieces(context, surface, expected));
+  TRY(find_pinched(network, nodes, &pinched));
+  TRY(count_pieces(context, surface, pinched.span(), expected));
   for (size_t s = 0; s < on_border.size(); ++s) {
     const network::Segment& segment = network.segment[s];
     if (!on_border[s] || segment.from == k_none) continue;  // a closed curve comes to nought
@@ -87,7 +107,8 @@ static Status predict_euler_characteristic(Context& context, const network::Netw
   }
   for (uint8_t node : used) *expected += node;
   for (uint32_t p = 0; p < network.patches(); ++p) {
-    *expected += 1 - static_cast<int32_t>(network.patch_start[p + 1] - network.patch_start[p]);
+    *expected += (pinched[p] ? 1 : 2) -
+                 static_cast<int32_t>(network.patch_start[p + 1] - network.patch_start[p]);
   }
   return {};
 }
