@@ -33,7 +33,7 @@ class Cholesky {
   // Gives back what only another factor() would need; the next one begins with analyse().
   void end_factoring();
 
-  // x := A^-1 x, an n x columns block stored row by row.
+  // x := A^-1 x, an n x columns block stored row by row. Cancelled it may have written part of x.
   Status solve(Span<double> x, uint32_t columns);
 
   // Entries of the factor, without the zeros that the panels add.

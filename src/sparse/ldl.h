@@ -27,7 +27,7 @@ class Ldl {
   // is `not_positive_definite`, place.vertex its column.
   Status factor(const Csc& lower);
 
-  // x := A^-1 x, an n x columns block stored row by row.
+  // x := A^-1 x, an n x columns block stored row by row. Cancelled it may have written part of x.
   Status solve(Span<double> x, uint32_t columns);
 
   // The diagonal of A^-1.

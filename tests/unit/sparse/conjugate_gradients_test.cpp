@@ -249,7 +249,7 @@ TEST_CASE("cg: every failing allocation and every cancel is a clean status") {
         Jacobi jacobi(heap.context);
         must(jacobi.build(lower));
         if (cancel) {
-          heap.cancel_at = k;
+          heap.cancel_at = heap.checkpoints + k;
         } else {
           heap.allocator.fail_at = heap.allocator.calls + k;
         }
