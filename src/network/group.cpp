@@ -1,7 +1,6 @@
 #include "network/group.h"
 
 #include "network/group_enclosed.h"
-#include "network/group_facing.h"
 #include "network/group_guests.h"
 #include "network/group_rings.h"
 #include "network/group_sight.h"
@@ -68,7 +67,6 @@ Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity*
   TRY(join_enclosed(&planes));
   TRY(join_rings(&planes));
   TRY(join_in_sight(&planes));
-  TRY(join_facing(&planes));
   TRY(rebuild(&planes, &number, &ambiguous));
   TRY(take_components(&spaces));
   TRY(settled.assign(planes.holder.size(), 0));

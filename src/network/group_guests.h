@@ -1,4 +1,4 @@
-// Rule 5 of network/group.h: what lies on the guessed surface of a patch joins that patch.
+// Rule 4 of network/group.h: what lies on the guessed surface of a patch joins that patch.
 //
 // In: what the rules before have left alone: pieces that bound nothing and are not `settled`, loops
 // that run clockwise round their normals, rings of boundary curves. Out: those that lie on the

@@ -133,7 +133,7 @@ TEST_CASE("group: a great circle has two sides, and a tagged one none to choose"
   CHECK(t.status.place.curve == 0);
 }
 
-TEST_CASE("group: a torus of three meridians, or of two parallels") {
+TEST_CASE("group: a torus of five meridians") {
   const auto at = [](double u, double v) {
     const Vec3 n = {std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v)};
     return std::make_pair(Vec3{4 * std::cos(u), 4 * std::sin(u), 0} + 1.0 * n, n);
@@ -161,6 +161,42 @@ TEST_CASE("group: separate surfaces stay apart") {
   net.add_circle({22.2, 0, 0}, 1, true);
   Stages s(net);
   CHECK(loops_of(s) == Loops(26, 1));
+}
+
+TEST_CASE("group: balls whose open sides look past each other are closed each by itself") {
+  // A tilted part of a sphere beyond a latitude: four meridians to its pole, four arcs of its rim.
+  const auto add_ball = [](CurveNet* net, const Vec3& centre, double radius, double up, double tilt,
+                           double latitude) {
+    const auto at = [=](double polar, double around) {
+      const Vec3 n = {std::cos(polar) * std::cos(around), std::cos(polar) * std::sin(around),
+                      up * std::sin(polar)};
+      const Vec3 turned = {std::cos(tilt) * n.x - std::sin(tilt) * n.z, n.y,
+                           std::sin(tilt) * n.x + std::cos(tilt) * n.z};
+      return std::make_pair(centre + radius * turned, turned);
+    };
+    for (int q = 0; q < 4; ++q) {
+      const double around = q * k_pi / 2;
+      net->add(8, false, false,
+               [&](double t) { return at(latitude + t * (k_pi / 2 - latitude), around); });
+      net->add(8, false, false, [&](double t) { return at(latitude, around + t * k_pi / 2); });
+    }
+  };
+  struct Ball {
+    double height, radius, tilt, latitude;
+  };
+  const struct {
+    Ball upper, lower;
+    double aside;
+  } pairs[] = {{{1.81, 0.62, -0.76, 0.05}, {-0.82, 0.57, -0.12, -0.57}, 1.41},
+               {{0.77, 0.68, -0.60, -0.29}, {-0.86, 0.72, 0.18, -0.32}, 1.24},
+               {{0.88, 0.67, -0.33, -0.30}, {-0.11, 0.55, -0.10, -0.57}, 1.12}};
+  for (const auto& [upper, lower, aside] : pairs) {
+    CurveNet net;
+    add_ball(&net, {0, 0, upper.height}, upper.radius, 1, upper.tilt, upper.latitude);
+    add_ball(&net, {aside, 0, lower.height}, lower.radius, -1, lower.tilt, lower.latitude);
+    Stages s(net);
+    CHECK(loops_of(s, 0.05) == Loops(10, 1));
+  }
 }
 
 TEST_CASE("group: a curve between two loops lies inside their patch") {
