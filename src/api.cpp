@@ -35,12 +35,13 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
   }
   TRY(storage->position.resize(mesh.vertex_count));
   TRY(storage->held.resize(mesh.vertex_count));
-  if (mesh.normals != nullptr) TRY(storage->normal.assign(mesh.vertex_count, Vec3{}));
+  if (mesh.normals != nullptr) TRY(assign_in_parts(mesh.vertex_count, Vec3{}, &storage->normal));
+  Pace pace(storage->held.context());
   for (size_t v = 0; v < mesh.vertex_count; ++v) {
     Place place;
     place.vertex = static_cast<uint32_t>(v);
     storage->held[v] = mesh.constrained[v] != 0;
-    if (v % 65536 == 65535) TRY(storage->held.context().checkpoint());
+    TRY(pace.after());
     TRY(read_position({mesh.positions, mesh.position_stride}, v, place, &storage->position[v]));
     if (mesh.normals != nullptr && storage->held[v]) {
       TRY(read_normal({mesh.normals, mesh.normal_stride}, v, place, &storage->normal[v]));

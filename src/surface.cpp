@@ -110,11 +110,9 @@ static Status take_vertices(const network::CurveVertices& vertices,
                             const network::PatchMesh& patches, Surface* surface) {
   const size_t given = vertices.position.size();
   Context& context = surface->position.context();
-  TRY(surface->position.assign(patches.vertices, Vec3{}));
-  TRY(context.checkpoint());
-  TRY(surface->constraint_normal.assign(patches.vertices, Vec3{}));
-  TRY(context.checkpoint());
-  TRY(surface->vertex_curve.assign(patches.vertices, k_none));
+  TRY(assign_in_parts(patches.vertices, Vec3{}, &surface->position));
+  TRY(assign_in_parts(patches.vertices, Vec3{}, &surface->constraint_normal));
+  TRY(assign_in_parts(patches.vertices, k_none, &surface->vertex_curve));
   TRY(in_parts(context, given, [&](size_t v) {
     surface->position[v] = vertices.position[v];
     surface->constraint_normal[v] = vertices.normal[v];
@@ -247,8 +245,9 @@ static Status check_held(const TriangleSet& set, const mesh::Topology& topology)
   TRY(in_parts(context, set.constrained.size(), [&](size_t v) {
     if (set.constrained[v]) anchored[topology.component[v]] = 1;
   }));
+  Pace pace(context);
   for (uint32_t v = 0; v < set.constrained.size(); ++v) {
-    if (v % 65536 == 65535) TRY(context.checkpoint());
+    TRY(pace.after());
     Place place;
     place.vertex = v;
     if (topology.on_border[v] && !set.constrained[v]) {
@@ -274,14 +273,14 @@ static Status mean_edge_length(Context& context, Span<const Vec3> positions,
 
 static Status take_triangles(const TriangleSet& set, Surface* surface) {
   const size_t n = set.position.size();
-  TRY(surface->position.copy(set.position));
-  TRY(surface->triangle.copy(set.triangle));
-  TRY(surface->patch.assign(set.triangle.size() / 3, 0));
+  TRY(copy_in_parts(set.position, &surface->position));
+  TRY(copy_in_parts(set.triangle, &surface->triangle));
+  TRY(assign_in_parts(set.triangle.size() / 3, 0, &surface->patch));
   TRY(surface->patches.way.push(0));
   TRY(surface->patches.status.push(Status{}));
   TRY(surface->patches.curve_start.assign(2, 0));
-  TRY(surface->constraint_normal.assign(n, Vec3{}));
-  TRY(surface->vertex_curve.assign(n, k_none));
+  TRY(assign_in_parts(n, Vec3{}, &surface->constraint_normal));
+  TRY(assign_in_parts(n, k_none, &surface->vertex_curve));
   return in_parts(surface->position.context(), n, [&](size_t v) {
     if (!set.constrained[v]) return;
     surface->vertex_curve[v] = 0;

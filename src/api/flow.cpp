@@ -3,6 +3,7 @@
 #include <new>
 
 #include "api/boundary.h"
+#include "base/in_parts.h"
 #include "flow/critical.h"
 #include "surface/flow_noise.h"
 #include "surface/from_flow.h"
@@ -197,7 +198,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   inside.lids = static_cast<flow::Lids>(flow_options.lids);
   const flow::Polylines polylines = {input.start.span(), input.position.span(), input.number.span(),
                                      input.closed.span()};
-  TRY(made->given.copy(input.position.span()));
+  TRY(copy_in_parts(input.position.span(), &made->given));
   TRY(context.enter(Stage::curves));
   TRY(smooth_polylines(context, polylines, flow_smoothing_of(options, scale), input.position.span(),
                        made->normal.span(), &made->noise));

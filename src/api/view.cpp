@@ -38,20 +38,12 @@ struct SurfaceLayout {
   }
 };
 
-static const uint32_t* write_indices(unsigned char* block, size_t offset,
-                                     const Array<uint32_t>& values) {
-  if (values.empty()) return nullptr;
-  std::memcpy(block + offset, values.data(), values.size() * sizeof(uint32_t));
-  return reinterpret_cast<const uint32_t*>(block + offset);
-}
-
-// Of a million vertices they are so many that fresh memory alone takes its time.
-static Status write_triangles(Context& context, const Array<uint32_t>& triangle,
-                              unsigned char* block, const uint32_t** to) {
-  constexpr size_t k_part = 1u << 17;
-  uint32_t* const written = reinterpret_cast<uint32_t*>(block);
-  *to = triangle.empty() ? nullptr : written;
-  return in_parts<k_part>(context, triangle.size(), [&](size_t i) { written[i] = triangle[i]; });
+static Status write_indices(const Array<uint32_t>& values, unsigned char* place,
+                            const uint32_t** indices) {
+  uint32_t* const out = reinterpret_cast<uint32_t*>(place);
+  *indices = values.empty() ? nullptr : out;
+  return in_parts<k_light_steps_per_checkpoint>(values.context(), values.size(),
+                                                [&](size_t i) { out[i] = values[i]; });
 }
 
 static Status write_curvatures(Context& context, const Surface& surface,
@@ -68,8 +60,8 @@ static Status write_curvatures(Context& context, const Surface& surface,
 }
 
 // Surfaces of meshes and of flows have patches that no list says more of.
-static void write_patch_list(const Surface& surface, const SurfaceLayout& layout,
-                             unsigned char* block, wsk_surface_view* view) {
+static Status write_patch_list(const Surface& surface, const SurfaceLayout& layout,
+                               unsigned char* block, wsk_surface_view* view) {
   const size_t listed = surface.patches.status.size();
   const char** sentence = reinterpret_cast<const char**>(block + layout.sentences);
   wsk_status* status = reinterpret_cast<wsk_status*>(block + layout.statuses);
@@ -81,8 +73,9 @@ static void write_patch_list(const Surface& surface, const SurfaceLayout& layout
   view->patch_sentence = listed > 0 ? sentence : nullptr;
   view->patch_status = listed > 0 ? status : nullptr;
   view->patch_way = listed > 0 ? block + layout.ways : nullptr;
-  view->patch_curve_start = write_indices(block, layout.patch_start, surface.patches.curve_start);
-  view->patch_curves = write_indices(block, layout.patch_curve, surface.patches.curve);
+  TRY(write_indices(surface.patches.curve_start, block + layout.patch_start,
+                    &view->patch_curve_start));
+  return write_indices(surface.patches.curve, block + layout.patch_curve, &view->patch_curves);
 }
 
 Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out) {
@@ -108,20 +101,19 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   TRY(write_vectors(context, surface.constraint_normal.span(), none, block + layout.constraint,
                     &view.constraint_normals));
   TRY(write_curvatures(context, surface, layout, curvatures, block, &view));
-  view.vertex_curve = write_indices(block, layout.vertex_curve, surface.vertex_curve);
-  TRY(context.checkpoint());
-  TRY(write_triangles(context, surface.triangle, block + layout.triangle, &view.triangles));
-  TRY(context.checkpoint());
-  view.triangle_patch = write_indices(block, layout.patch, surface.patch);
-  view.curve_edges = write_indices(block, layout.edges, surface.curve_edge);
-  view.curve_edge_curve = write_indices(block, layout.edge_curve, surface.curve_edge_curve);
+  TRY(write_indices(surface.vertex_curve, block + layout.vertex_curve, &view.vertex_curve));
+  TRY(write_indices(surface.triangle, block + layout.triangle, &view.triangles));
+  TRY(write_indices(surface.patch, block + layout.patch, &view.triangle_patch));
+  TRY(write_indices(surface.curve_edge, block + layout.edges, &view.curve_edges));
+  TRY(write_indices(surface.curve_edge_curve, block + layout.edge_curve, &view.curve_edge_curve));
   if (SurfaceLayout::has_guard(surface)) {
     std::memcpy(block + layout.guarded, surface.patch_guarded.data(), surface.patch_guarded.size());
     view.patch_guarded = block + layout.guarded;
   }
-  write_patch_list(surface, layout, block, &view);
+  TRY(write_patch_list(surface, layout, block, &view));
   view.crease_corner_count = static_cast<uint32_t>(surface.crease_normals.corner.size());
-  view.crease_corners = write_indices(block, layout.crease_corners, surface.crease_normals.corner);
+  TRY(write_indices(surface.crease_normals.corner, block + layout.crease_corners,
+                    &view.crease_corners));
   if (view.crease_corner_count > 0) {
     TRY(write_vectors(context, surface.crease_normals.normal.span(), none,
                       block + layout.crease_normals, &view.crease_normals));

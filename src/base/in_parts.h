@@ -28,10 +28,25 @@ Status in_parts(Context& context, size_t count, const Body& body) {
   return {};
 }
 
+// For steps that take next to no time, as those that only fill or copy: most of what these cost is
+// that the system brings fresh memory.
+inline constexpr size_t k_light_steps_per_checkpoint = 16 * k_steps_per_checkpoint;
+
+// The array alone says what T is.
 template <typename T>
-Status copy_in_parts(const Array<T>& source, Array<T>* target) {
+Status assign_in_parts(size_t size, const std::enable_if_t<true, T>& value, Array<T>* array) {
+  const T kept = value;  // it may live in the memory that resize() gives back
+  TRY(array->resize(size));
+  return in_parts<k_light_steps_per_checkpoint>(array->context(), size,
+                                                [&](size_t i) { (*array)[i] = kept; });
+}
+
+// `source`: an array or a span.
+template <typename Source, typename T>
+Status copy_in_parts(const Source& source, Array<T>* target) {
   TRY(target->resize(source.size()));
-  return in_parts(target->context(), source.size(), [&](size_t i) { (*target)[i] = source[i]; });
+  return in_parts<k_light_steps_per_checkpoint>(target->context(), source.size(),
+                                                [&](size_t i) { (*target)[i] = source[i]; });
 }
 
 // Room for so many elements more. Growing by a half at least, as push() does, but for arrays so
@@ -49,20 +64,22 @@ Status make_room_in_parts(size_t more, Array<T>* array) {
 
 class Pace {
  public:
-  explicit Pace(Context& context) : context_(context) {}
+  explicit Pace(Context& context, size_t steps_per_checkpoint = k_steps_per_checkpoint)
+      : context_(context), most_(steps_per_checkpoint) {}
 
   // Counts only; for places that have no status to return.
   void add(size_t steps) { steps_ += steps; }
 
   Status after(size_t steps = 1) {
     steps_ += steps;
-    if (steps_ < k_steps_per_checkpoint) return {};
+    if (steps_ < most_) return {};
     steps_ = 0;
     return context_.checkpoint();
   }
 
  private:
   Context& context_;
+  size_t most_;
   size_t steps_ = 0;
 };
 

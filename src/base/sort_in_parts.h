@@ -3,13 +3,13 @@
 // turned out badly; the result is the same, for `less` must be a total order.
 #pragma once
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 
 namespace wireskin {
 
 template <typename T, typename Less>
 Status sort_in_parts(Context& context, Span<T> values, const Less& less) {
-  constexpr size_t k_part = 1 << 13;
   struct Run {
     Span<T> values;
     int budget;
@@ -20,7 +20,7 @@ Status sort_in_parts(Context& context, Span<T> values, const Less& less) {
   stack[depth++] = {values, budget};
   while (depth > 0) {
     Run run = stack[--depth];
-    while (run.values.size() > k_part && run.budget-- > 0) {
+    while (run.values.size() > k_steps_per_checkpoint && run.budget-- > 0) {
       TRY(context.checkpoint());
       T* const middle = partition(run.values.begin(), run.values.end(), less);
       const size_t cut = static_cast<size_t>(middle - run.values.begin());

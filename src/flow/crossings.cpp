@@ -15,7 +15,6 @@ struct Box {
 };
 
 // Of passes over the cells, most of which are empty.
-constexpr size_t k_cells_per_checkpoint = 1u << 18;
 
 // Cells of a uniform grid along each axis.
 struct CrossingGrid {
@@ -238,7 +237,7 @@ static Status choose_grid(Context& context, Span<const Vec3> position,
 // Turns the counts of cells into their starts.
 static Status start_cells(Context& context, Span<uint32_t> start) {
   uint32_t sum = 0;
-  return in_parts<k_cells_per_checkpoint>(context, start.size(), [&](size_t i) {
+  return in_parts<k_light_steps_per_checkpoint>(context, start.size(), [&](size_t i) {
     const uint32_t count = start[i];
     start[i] = sum;
     sum += count;
@@ -254,10 +253,8 @@ Status find_crossings(Context& context, Span<const Vec3> position, Span<const ui
   CrossingGrid grid;
   Array<uint32_t> start(context), item(context), met(context);
   TRY(choose_grid(context, position, triangle, &grid));
-  TRY(start.resize(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1));
-  TRY(in_parts<k_cells_per_checkpoint>(context, start.size(), [&](size_t i) { start[i] = 0; }));
-  TRY(context.checkpoint());
-  TRY(met.assign(count, k_none));
+  TRY(assign_in_parts(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0, &start));
+  TRY(assign_in_parts(count, k_none, &met));
   const auto range_of = [&](uint32_t t) {
     return cells_of(grid, box_of(position, &triangle[3 * size_t{t}]));
   };

@@ -14,7 +14,7 @@ Status corner_normals(const Cut& cut, uint32_t vertices, Span<const Vec3> normal
   result->normal.clear();
   if (cut.vertices() == vertices) return {};
   Array<uint8_t> parted(result->corner.context());
-  TRY(parted.assign(vertices, 0));
+  TRY(assign_in_parts(vertices, 0, &parted));
   for (uint32_t c = vertices; c < cut.vertices(); ++c) parted[cut.origin[c]] = 1;
   Pace pace(result->corner.context());
   for (uint32_t h = 0; h < cut.triangle.size(); ++h) {
@@ -44,7 +44,7 @@ static Status find_manifold_twins(uint32_t vertices, Span<const uint32_t> triang
   Array<uint32_t> start(context), corner(context);
   Array<EdgeCount> to(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(to.assign(vertices, EdgeCount{}));
+  TRY(assign_in_parts(vertices, EdgeCount{}, &to));
   TRY(twins->resize(triangles.size()));
   return in_parts(context, vertices, [&](size_t v) {
     const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
@@ -79,7 +79,7 @@ Status find_crease_normals(Context& context, Span<const Vec3> positions,
   Array<Vec3> place(context), normal(context);
   Cut cut(context);
   TRY(find_manifold_twins(vertices, triangles, &twins));
-  TRY(crease.assign(triangles.size(), 0));
+  TRY(assign_in_parts(triangles.size(), 0, &crease));
   TRY(in_parts(context, triangles.size(), [&](size_t i) {
     const uint32_t h = static_cast<uint32_t>(i), twin = twins[h];
     if (twin == k_none || twin < h) return;

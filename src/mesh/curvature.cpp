@@ -78,8 +78,8 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
   Context& context = curvature->context();
   const size_t n = positions.size();
   Array<double> area(context);
-  TRY(curvature->assign(n, 0.0));
-  TRY(area.assign(n, 0.0));
+  TRY(assign_in_parts(n, 0.0, curvature));
+  TRY(assign_in_parts(n, 0.0, &area));
   TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
     const uint32_t* v = &triangles[3 * t];
     const Vec3 normal = unit(normals[v[0]] + normals[v[1]] + normals[v[2]]);

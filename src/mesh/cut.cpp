@@ -19,10 +19,12 @@ static uint32_t first_of_sector(Span<const uint32_t> twins, Span<const uint8_t> 
 Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
                 Span<const uint8_t> marked, Cut* cut) {
   Array<uint8_t> taken(cut->origin.context());
-  TRY(taken.assign(vertices, 0));
-  TRY(cut->triangle.assign(triangles.size(), k_none));
+  TRY(assign_in_parts(vertices, 0, &taken));
+  TRY(assign_in_parts(triangles.size(), k_none, &cut->triangle));
   TRY(cut->origin.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
+  TRY(in_parts<k_light_steps_per_checkpoint>(cut->origin.context(), vertices, [&](size_t v) {
+    cut->origin[v] = static_cast<uint32_t>(v);
+  }));
   Pace pace(cut->origin.context());
   for (uint32_t h = 0; h < triangles.size(); ++h) {
     TRY(pace.after());

@@ -35,8 +35,8 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
   Context& context = curvature->context();
   const size_t n = positions.size();
   Array<double> area(context);
-  TRY(curvature->assign(n, 2.0 * k_pi));
-  TRY(area.assign(n, 0.0));
+  TRY(assign_in_parts(n, 2.0 * k_pi, curvature));
+  TRY(assign_in_parts(n, 0.0, &area));
   TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
     const uint32_t* v = &triangles[3 * t];
     const TriangleShape shape = triangle_shape(positions[v[0]], positions[v[1]], positions[v[2]]);
@@ -68,8 +68,9 @@ Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const 
                        AngleStatistics* dihedral) {
   // Edges of curves have both ends on curves, and so have their triangles: the others are left out.
   Array<uint32_t> twins(context), corner(context), own_patch(context);
+  Pace pace(context);
   for (size_t t = 0; 3 * t < triangles.size(); ++t) {
-    if (t % 65536 == 65535) TRY(context.checkpoint());
+    TRY(pace.after());
     const uint32_t* v = &triangles[3 * t];
     if (on_curve[v[0]] + on_curve[v[1]] + on_curve[v[2]] < 2) continue;
     for (size_t k = 0; k < 3; ++k) TRY(corner.push(v[k]));

@@ -5,8 +5,6 @@
 
 namespace wireskin::mesh {
 
-static constexpr size_t k_per_checkpoint = 16384;  // triangles or vertices
-
 static Status fail_triangle(const char* sentence, size_t triangle) {
   Place place;
   place.triangle = static_cast<uint32_t>(triangle);
@@ -20,6 +18,7 @@ static Status fail_vertex(const char* sentence, size_t vertex) {
 }
 
 static Status check_indices(Context& context, uint32_t vertices, Span<const uint32_t> triangles) {
+  Pace pace(context);
   for (size_t t = 0; t < triangles.size() / 3; ++t) {
     const uint32_t a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
     if (a >= vertices || b >= vertices || c >= vertices) {
@@ -29,7 +28,7 @@ static Status check_indices(Context& context, uint32_t vertices, Span<const uint
                   place);
     }
     if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
-    if (t % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -37,7 +36,7 @@ static Status check_indices(Context& context, uint32_t vertices, Span<const uint
 Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
                     Array<uint32_t>* corner) {
   Context& context = start->context();
-  TRY(start->assign(size_t{vertices} + 1, 0));
+  TRY(assign_in_parts(size_t{vertices} + 1, 0, start));
   TRY(corner->resize(triangles.size()));
   TRY(in_parts(context, triangles.size(), [&](size_t h) { ++(*start)[triangles[h]]; }));
   starts_from_counts(start->span());
@@ -53,9 +52,11 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
   TRY(check_indices(context, vertices, triangles));
   Array<uint32_t> start(context), corner(context), leaving_to(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(leaving_to.assign(vertices, k_none));  // of each vertex: the half-edge to it from this one
+  TRY(assign_in_parts(vertices, k_none,
+                      &leaving_to));  // of each vertex: the half-edge to it from this one
   TRY(twins->resize(triangles.size()));
   const auto head = [&](uint32_t h) { return triangles[next_half_edge(h)]; };
+  Pace pace(context);
   for (uint32_t v = 0; v < vertices; ++v) {
     const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
     for (uint32_t h : leaving) {
@@ -71,7 +72,7 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
       (*twins)[arriving] = leaving_to[triangles[arriving]];
     }
     for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
-    if (v % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -85,7 +86,8 @@ static uint32_t root_of(Span<uint32_t> parent, uint32_t v) {
 static Status find_components(Context& context, Span<const uint32_t> triangles,
                               Topology* topology) {
   const Span<uint32_t> parent = topology->component.span();
-  for (uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
+  TRY(in_parts<k_light_steps_per_checkpoint>(
+      context, parent.size(), [&](size_t v) { parent[v] = static_cast<uint32_t>(v); }));
   TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
     for (size_t h = 3 * t + 1; h < 3 * t + 3; ++h) {
       const uint32_t a = root_of(parent, triangles[3 * t]), b = root_of(parent, triangles[h]);
@@ -93,10 +95,9 @@ static Status find_components(Context& context, Span<const uint32_t> triangles,
     }
   }));
   // Roots come before their members, so one pass replaces parents by component numbers.
-  for (uint32_t v = 0; v < parent.size(); ++v) {
+  return in_parts(context, parent.size(), [&](size_t v) {
     parent[v] = parent[v] == v ? topology->components++ : parent[parent[v]];
-  }
-  return {};
+  });
 }
 
 namespace {
@@ -113,7 +114,9 @@ struct Fan {
 
 static Status find_fans(Context& context, Span<const uint32_t> triangles,
                         Span<const uint32_t> twins, Span<Fan> fans) {
-  for (Fan& fan : fans) fan = {0, 0, 0};
+  TRY(in_parts<k_light_steps_per_checkpoint>(context, fans.size(), [&](size_t v) {
+    fans[v] = {0, 0, 0};
+  }));
   return in_parts(context, triangles.size(), [&](size_t h) {
     Fan& fan = fans[triangles[h]];
     const uint32_t border = twins[h] == k_none;
@@ -127,6 +130,7 @@ static Status find_fans(Context& context, Span<const uint32_t> triangles,
 // compares the number of triangles met with those it has.
 static Status check_fans(Context& context, Span<const uint32_t> twins, Span<const Fan> fans,
                          Span<uint8_t> on_border) {
+  Pace pace(context);
   for (size_t v = 0; v < fans.size(); ++v) {
     const Fan fan = fans[v];
     if (fan.corners == 0) return fail_vertex("the vertex belongs to no triangle", v);
@@ -139,7 +143,7 @@ static Status check_fans(Context& context, Span<const uint32_t> twins, Span<cons
       return fail_vertex("the triangles round the vertex do not form one fan", v);
     }
     on_border[v] = fan.borders == 1;
-    if (v % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -147,11 +151,14 @@ static Status check_fans(Context& context, Span<const uint32_t> twins, Span<cons
 // Follows every border once, marking its half-edges.
 static Status count_loops(Span<const uint32_t> twins, Context& context, uint32_t* loops) {
   Array<uint8_t> seen(context);
-  TRY(seen.assign(twins.size(), 0));
+  TRY(assign_in_parts(twins.size(), 0, &seen));
+  Pace pace(context, k_light_steps_per_checkpoint);
   for (uint32_t h = 0; h < twins.size(); ++h) {
+    TRY(pace.after());
     if (twins[h] != k_none || seen[h]) continue;
     ++*loops;
     for (uint32_t g = h; !seen[g];) {
+      TRY(pace.after());
       seen[g] = 1;
       g = next_half_edge(g);
       while (twins[g] != k_none) g = next_half_edge(twins[g]);
@@ -165,7 +172,7 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
   Context& context = topology->on_border.context();
   Array<Fan> fans(context);
   TRY(fans.resize(vertices));
-  TRY(topology->on_border.assign(vertices, 0));
+  TRY(assign_in_parts(vertices, 0, &topology->on_border));
   TRY(topology->component.resize(vertices));
   TRY(find_fans(context, triangles, twins, fans.span()));
   TRY(check_fans(context, twins, fans.span(), topology->on_border.span()));
@@ -179,11 +186,12 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
 }
 
 Status check_areas(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles) {
+  Pace pace(context);
   for (size_t t = 0; t < triangles.size(); t += 3) {
     const Vec3& a = positions[triangles[t]];
     const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
     if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
-    if (t / 3 % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }

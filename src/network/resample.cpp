@@ -1,5 +1,6 @@
 #include "network/resample.h"
 
+#include "base/in_parts.h"
 #include "base/sort.h"
 #include "curves/sides.h"
 #include "network/side_normals.h"
@@ -73,14 +74,14 @@ uint32_t segment_vertex(const Network& network, const CurveVertices& vertices, u
 }
 
 static Status place_vertices(const curves::Curves& curves, const Network& network, uint32_t s,
-                             CurveVertices* vertices) {
+                             Pace* pace, CurveVertices* vertices) {
   const Segment& segment = network.segment[s];
   const curves::Curve curve = curves[segment.curve];
   const double from = curve.arc[segment.first_knot];
   const double length = curve.arc[segment.last_knot] - from;
   const uint32_t edges = vertices->edges[s];
   for (uint32_t k = 0; k <= edges; ++k) {
-    if (k % 4096 == 4095) TRY(vertices->position.context().checkpoint());
+    TRY(pace->after());
     const uint32_t v = segment_vertex(network, *vertices, s, k);
     if (vertices->curve[v] > segment.curve) vertices->curve[v] = segment.curve;
     if (segment.from != k_none && (k == 0 || k == edges)) continue;  // nodes are there already
@@ -107,9 +108,9 @@ Status resample(const curves::Curves& curves, Span<const Node> nodes, const Netw
     vertices->position[i] = nodes[i].position;
     vertices->normal[i] = nodes[i].normal;
   }
+  Pace pace(vertices->position.context());
   for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    TRY(place_vertices(curves, network, s, vertices));
-    if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
+    TRY(place_vertices(curves, network, s, &pace, vertices));
   }
   // The curves' own numbers of nodes would not do: they hold before patches are dropped.
   for (size_t i = 0; i < nodes.size(); ++i) {

@@ -1,11 +1,13 @@
 #include "network/side_normals.h"
 
+#include "base/in_parts.h"
 #include "curves/sides.h"
 
 namespace wireskin::network {
 
 // The normals of one side of segment s, `curve` being its curve as seen from there.
-static Status fill_side(const curves::Curve& curve, const Segment& segment, Span<Vec3> side) {
+static Status fill_side(const curves::Curve& curve, const Segment& segment, Pace* pace,
+                        Span<Vec3> side) {
   const size_t edges = side.size() - 1;
   const double from = curve.arc[segment.first_knot];
   const double length = curve.arc[segment.last_knot] - from;
@@ -16,6 +18,7 @@ static Status fill_side(const curves::Curve& curve, const Segment& segment, Span
     return {};
   }
   for (size_t k = 1; k < edges; ++k) {
+    TRY(pace->after());
     const double part = static_cast<double>(k) / static_cast<double>(edges);
     side[k] = point_at(curve, segment.first_knot, segment.last_knot, from + part * length).normal;
     if (dot(side[k], side[k]) > 0.5) continue;
@@ -38,13 +41,14 @@ Status resample_sides(const curves::Curves& curves, const Network& network,
   vertices->side_start[segments] = total;
   TRY(vertices->left.resize(total));
   TRY(vertices->right.resize(total));
+  Pace pace(vertices->left.context());
   for (uint32_t s = 0; s < segments; ++s) {
     const Segment& segment = network.segment[s];
     const size_t first = vertices->side_start[s], count = size_t{vertices->edges[s]} + 1;
     const Span<Vec3> left = vertices->left.span().part(first, count);
     const Span<Vec3> right = vertices->right.span().part(first, count);
-    TRY(fill_side(curves[segment.curve], segment, left));
-    TRY(fill_side(seen_from_right(curves, segment.curve), segment, right));
+    TRY(fill_side(curves[segment.curve], segment, &pace, left));
+    TRY(fill_side(seen_from_right(curves, segment.curve), segment, &pace, right));
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t v = segment_vertex(network, *vertices, s, k);
       const bool inside = segment.from == k_none || (k > 0 && k + 1 < count);

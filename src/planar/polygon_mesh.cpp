@@ -71,7 +71,7 @@ static Status survey_star(const Triangulation& t, uint32_t v, double spacing, do
 static Status survey(const Triangulation& t, double spacing, Array<double>* sizes,
                      Array<LatticeObstacle>* obstacles) {
   const uint32_t count = static_cast<uint32_t>(t.points.size());
-  TRY(sizes->assign(count, spacing));
+  TRY(assign_in_parts(count, spacing, sizes));
   TRY(obstacles->reserve(count));
   for (uint32_t v = k_box_corners; v < count; ++v) {
     if (v % 4096 == 0) TRY(sizes->context().checkpoint());

@@ -1,5 +1,6 @@
 #include "planar/refine.h"
 
+#include "base/in_parts.h"
 #include "num/minmax.h"
 
 namespace wireskin::planar {
@@ -185,11 +186,13 @@ static Status refine_triangle(Refiner* r, uint32_t triangle) {
 
 Status refine(Triangulation* t, Array<double>* sizes, double spacing, size_t most_vertices) {
   Refiner r = {t, sizes, spacing, Array<uint32_t>(t->triangles.context())};
-  for (uint32_t i = 0; i < t->triangles.size(); ++i) {
-    if ((t->triangles[i].flags & k_outside) == 0 && is_coarse(r, i))
+  TRY(in_parts(t->points.context(), t->triangles.size(), [&](size_t i) {
+    if ((t->triangles[i].flags & k_outside) == 0 && is_coarse(r, static_cast<uint32_t>(i)))
       t->triangles[i].flags |= k_coarse;
-  }
+  }));
+  Pace pace(t->points.context());
   for (uint32_t i = 0; i < t->triangles.size(); ++i) {
+    TRY(pace.after());
     if ((t->triangles[i].flags & k_coarse) == 0) continue;
     const uint32_t h = 4 * i;
     if (is_front(*t, h) || is_front(*t, h + 1) || is_front(*t, h + 2)) TRY(queue_triangle(&r, i));

@@ -1,5 +1,6 @@
 #include "planar/relax.h"
 
+#include "base/in_parts.h"
 #include "num/minmax.h"
 #include "num/predicates.h"
 
@@ -180,11 +181,11 @@ static Status mend_triangles(Triangulation* t, const Mobility& mobility, bool* f
 }
 
 // Those that may want to move: loose vertices and the neighbours of loose or held ones.
-static void wake(const Triangulation& t, const Mobility& mobility, Span<uint8_t> awake) {
-  for (const Triangle& triangle : t.triangles) {
-    if (mobility.rests(triangle)) continue;
-    for (const uint32_t v : triangle.vertex) awake[v] = 1;
-  }
+static Status wake(const Triangulation& t, const Mobility& mobility, Span<uint8_t> awake) {
+  return in_parts(t.points.context(), t.triangles.size(), [&](size_t i) {
+    if (mobility.rests(t.triangles[i])) return;
+    for (const uint32_t v : t.triangles[i].vertex) awake[v] = 1;
+  });
 }
 
 Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, uint32_t first_loose,
@@ -193,8 +194,8 @@ Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, ui
   const uint32_t count = static_cast<uint32_t>(t->points.size());
   const Mobility mobility = {first_free, first_loose};
   Array<uint8_t> awake(context);
-  TRY(awake.assign(count, 0));
-  wake(*t, mobility, awake.span());
+  TRY(assign_in_parts(count, 0, &awake));
+  TRY(wake(*t, mobility, awake.span()));
   t->stack.clear();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (uint32_t v = first_free; v < count; ++v) {

@@ -55,7 +55,7 @@ static Status find_curve_graph(Context& context, const GivenCurves& curves, Curv
   const uint32_t n = static_cast<uint32_t>(curves.position.size());
   Array<uint32_t> edges(context), filled(context);
   TRY(list_given_edges(context, curves, &edges));
-  TRY(graph->start.assign(size_t{n} + 1, 0));
+  TRY(assign_in_parts(size_t{n} + 1, 0, &graph->start));
   TRY(graph->neighbour.resize(edges.size()));
   TRY(graph->is_node.assign(n, 0));
   TRY(filled.assign(n, 0));

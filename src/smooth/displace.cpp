@@ -72,7 +72,7 @@ struct InnerEdges {
 static Status list_inner_edges(const DisplaceInput& input, InnerEdges* edges) {
   const Span<const uint32_t> ends = input.inner_edge;
   if (ends.empty()) return {};
-  TRY(edges->start.assign(input.position.size() + 1, 0));
+  TRY(assign_in_parts(input.position.size() + 1, 0, &edges->start));
   TRY(edges->other.resize(ends.size()));
   for (uint32_t v : ends) ++edges->start[v];
   starts_from_counts(edges->start.span());
@@ -115,7 +115,7 @@ static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
   InnerEdges inner(context);
   TRY(mesh::find_corners(n, input.triangle, &start, &corner));
   TRY(list_inner_edges(input, &inner));
-  TRY(split->triangle.assign(input.triangle.size(), k_none));
+  TRY(assign_in_parts(input.triangle.size(), k_none, &split->triangle));
   TRY(split->origin.reserve(input.triangle.size()));
   TRY(in_parts(context, n, [&](size_t i) {
     const uint32_t v = static_cast<uint32_t>(i);
@@ -144,7 +144,7 @@ static Status add_rim_conormals(SplitMesh* split) {
   Context& context = split->origin.context();
   Array<uint32_t> twins(context);
   TRY(mesh::find_twins(split->vertices, split->triangle.span(), &twins));
-  TRY(split->conormal.assign(split->vertices, Vec3{}));
+  TRY(assign_in_parts(split->vertices, Vec3{}, &split->conormal));
   return in_parts(context, twins.size(), [&](size_t h) {
     if (twins[h] != k_none) return;
     const uint32_t next = mesh::next_half_edge(static_cast<uint32_t>(h));
@@ -349,7 +349,7 @@ Status MinimumVariation::order_unknowns(const DisplaceInput& input, const sparse
                                         Array<uint32_t>* order) const {
   Array<uint32_t> vertex(context_), patch(context_);
   TRY(vertex.reserve(unknowns_));
-  TRY(patch.assign(input.position.size(), 0));
+  TRY(assign_in_parts(input.position.size(), 0, &patch));
   TRY(in_parts(context_, displacement_.size(), [&](size_t v) {
     if (displacement_[v] != k_none) vertex.push_reserved(static_cast<uint32_t>(v));
     vertex.push_reserved(static_cast<uint32_t>(v));
@@ -403,7 +403,7 @@ Status MinimumVariation::solve_by_pairs(const DisplaceInput& input, const sparse
   constexpr double k_good_enough = 1e-6;
   if (!iterative_) {
     Array<uint32_t> patch(context_);
-    TRY(patch.assign(input.position.size(), 0));
+    TRY(assign_in_parts(input.position.size(), 0, &patch));
     TRY(mesh::patches_of_vertices(context_, input.triangle, input.patch, patch.span()));
     const size_t n = input.position.size(), springs = system.rows.rows - 2 * n;
     TRY(pairs_.build({laplacian,
@@ -468,7 +468,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
     factor_ = sparse::Cholesky(context_);
     TRY(solve_by_pairs(input, laplacian, area.span(), system, solution.span()));
   }
-  TRY(start_.copy(solution.span()));
+  TRY(copy_in_parts(solution.span(), &start_));
   return in_parts(context_, n, [&](size_t v) {
     step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
     if (!input.held[v]) start_[displacement_[v]] = 0.0;

@@ -105,7 +105,7 @@ static Status harmonic_start(Context& context, const FairMesh& mesh, double* res
   System system(context);
   Array<double> weight(context);
   TRY(mesh::cotangent_laplacian(n, mesh.triangle, mesh.start_shape, &laplacian));
-  TRY(weight.assign(n, 1.0));
+  TRY(assign_in_parts(n, 1.0, &weight));
   TRY(system.prepare(laplacian, mesh.on_curve, Order::one, mesh.places));  // soft curves move later
   TRY(system.factor(weight.span(), {}));
   return system.solve({}, {}, mesh.position, residual);
@@ -159,9 +159,9 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
 
 static Status prepare_guard(Context& context, const FairMesh& mesh, uint32_t patches,
                             Guard* guard) {
-  TRY(guard->position.copy(mesh.position));
+  TRY(copy_in_parts(mesh.position, &guard->position));
   TRY(context.checkpoint());
-  TRY(guard->triangle.copy(mesh.triangle));
+  TRY(copy_in_parts(mesh.triangle, &guard->triangle));
   TRY(guard->area.assign(patches, 0.0));
   TRY(guard->step.assign(patches, -1.0));
   TRY(guard->frozen.assign(patches, 0));
@@ -282,9 +282,9 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   FairMesh fixed;
   Guard guard(context);
   Unfolded safe(context);
-  TRY(safe.position.copy(mesh.position));
+  TRY(copy_in_parts(mesh.position, &safe.position));
   TRY(context.checkpoint());
-  TRY(safe.triangle.copy(mesh.triangle));
+  TRY(copy_in_parts(mesh.triangle, &safe.triangle));
   TRY(safe.folds.assign(patches, 0));
   TRY(safe.known.assign(patches, 0));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
@@ -295,7 +295,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     TRY(unfold(context, mesh, guard, &safe));
   }
   // Soft curves take the normals that the last step smoothed; held ones have those given.
-  TRY(curve_normal.copy(mesh.normal));
+  TRY(copy_in_parts(mesh.normal, &curve_normal));
   TRY(prepare_guard(context, mesh, patches, &guard));
   Foretold foretold(context);
   if (options.displacement_steps > 0) {

@@ -1,5 +1,7 @@
 #include "smooth/node_curvature.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::smooth {
 
 // Parabolas through this share of an arc, and at least so many edges, give values and slopes at its
@@ -365,7 +367,7 @@ static void foretell_arc(const GivenCurves& curves, Span<const uint32_t> arc,
 // Gives the nodes that arcs leave numbers of their own: they are few among the vertices.
 static Status number_nodes(Context& context, size_t vertices, Span<ArcEnd> ends, uint32_t* count) {
   Array<uint32_t> number(context);
-  TRY(number.assign(vertices, k_none));
+  TRY(assign_in_parts(vertices, k_none, &number));
   *count = 0;
   for (ArcEnd& end : ends) {
     if (end.node == k_none) continue;
@@ -389,8 +391,8 @@ Status foretell_curvature(Context& context, const GivenCurves& curves, Array<dou
   Arcs arcs(context);
   Array<ArcEnd> ends(context);
   Array<NodeForm> forms(context);
-  TRY(curvature->assign(n, 0.0));
-  TRY(weight->assign(n, 0.0));
+  TRY(assign_in_parts(n, 0.0, curvature));
+  TRY(assign_in_parts(n, 0.0, weight));
   TRY(find_arcs(context, curves, k_least_window, &arcs));
   TRY(ends.resize(size_t{2} * arcs.count()));
   size_t work = 0;

@@ -57,7 +57,7 @@ struct Guided {
 // The penalties of soft vertices, for positions or for normals.
 static Status penalties(const Domain& domain, int order, bool normals, Array<double>* penalty) {
   const Soft& soft = domain.soft;
-  TRY(penalty->assign(soft.cutoff.size(), 0.0));
+  TRY(assign_in_parts(soft.cutoff.size(), 0.0, penalty));
   return in_parts(penalty->context(), penalty->size(), [&](size_t v) {
     if (soft.cutoff[v] == 0.0) return;
     const double cutoff = normals ? soft.normal_cutoff(v) : soft.cutoff[v];
@@ -97,7 +97,7 @@ static Status aim_at_conormals(Context& context, const Domain& domain, const Fie
                                Guided* guided) {
   if (domain.metric == Metric::planes) return {};
   const size_t n = field.position.size();
-  TRY(guided->conormal.assign(n, Vec3{}));
+  TRY(assign_in_parts(n, Vec3{}, &guided->conormal));
   TRY(guided->target.resize(n));
   TRY(add_conormals(context, domain, field, guided->conormal.span()));
   return in_parts(context, n, [&](size_t v) { guided->target[v] = -guided->conormal[v]; });

@@ -171,9 +171,8 @@ Status System::iterate(size_t columns) {
 Status System::factor(Span<const double> weight, Span<const double> penalty, bool last) {
   Context& context = weight_.context();
   TRY(context.enter(Stage::operators));
-  TRY(weight_.copy(weight));
-  TRY(penalty_.copy(penalty));
-  TRY(context.checkpoint());
+  TRY(copy_in_parts(weight, &weight_));
+  TRY(copy_in_parts(penalty, &penalty_));
   if (unknowns_ == 0) return {};
   if (order_ == Order::one) {
     TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, {}, &matrix_));

@@ -31,7 +31,7 @@ static Status order_by_tree(const Csc& lower, Array<uint32_t>* order, Array<uint
   const uint32_t n = lower.cols;
   Pattern upper(context);
   Array<uint32_t> tree(context), post(context), given(context);
-  TRY(given.copy(order->span()));
+  TRY(copy_in_parts(*order, &given));
   TRY(parent->resize(n));
   TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper, false));
   TRY(elimination_tree(upper, &tree));
@@ -71,8 +71,8 @@ Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
   n_ = lower.cols;
   Array<uint32_t> position(*context_), parent(*context_), count(*context_);
   if (order.size() != n_) return fail(Code::bad_argument, k_no_permutation);
-  TRY(order_.copy(order));
-  TRY(position.assign(n_, k_none));
+  TRY(copy_in_parts(order, &order_));
+  TRY(assign_in_parts(n_, k_none, &position));
   for (uint32_t k = 0; k < n_; ++k) {
     TRY(checkpoint_at_column(*context_, k));
     if (order[k] >= n_ || position[order[k]] != k_none) {
@@ -186,9 +186,8 @@ void Cholesky::assemble(uint32_t s, const double* source, uint32_t first, uint32
 
 // Some columns after the other, with checkpoints between.
 Status Cholesky::assemble_in_parts(uint32_t s, const double* source) {
-  constexpr uint32_t k_entries_per_checkpoint = 1u << 19;
   const uint32_t height = supernodes_.height(s);
-  const uint32_t most = k_entries_per_checkpoint / height + 1;
+  const uint32_t most = static_cast<uint32_t>(k_light_steps_per_checkpoint) / height + 1;
   for (uint32_t first = 0, end = 0; first < height; first = end) {
     end = height - first < most ? height : first + most;
     assemble(s, source, first, end);

@@ -54,14 +54,13 @@ Status append_column(Span<const uint32_t> rows, Span<const double> sum, Csc* mat
 
 Status transpose(const Csc& a, Csc* result) {
   const size_t entries = a.row.size();
-  TRY(result->start.assign(size_t{a.rows} + 1, 0));
+  TRY(assign_in_parts(size_t{a.rows} + 1, 0, &result->start));
   TRY(result->row.resize(entries));
   TRY(result->value.resize(entries));
   Array<uint32_t> next(a.start.context());
-  TRY(next.resize(size_t{a.rows} + 1));
   TRY(in_parts(a.start.context(), entries, [&](size_t k) { ++result->start[a.row[k]]; }));
   starts_from_counts(result->start.span());
-  TRY(in_parts(a.start.context(), next.size(), [&](size_t i) { next[i] = result->start[i]; }));
+  TRY(copy_in_parts(result->start, &next));
   for (uint32_t j = 0; j < a.cols; ++j) {
     TRY(checkpoint_at_column(a.start.context(), j));
     for (uint32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
@@ -79,14 +78,14 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
                        Pattern* result, bool with_source) {
   Context& context = lower.start.context();
   const uint32_t n = lower.cols;
-  TRY(result->start.assign(size_t{n} + 1, 0));
+  TRY(assign_in_parts(size_t{n} + 1, 0, &result->start));
   TRY(result->index.resize(lower.row.size()));
   if (with_source) TRY(result->source.resize(lower.row.size()));
   Array<uint32_t> next(context);
-  TRY(next.resize(size_t{n} + 1));
+  Pace pace(context);
   const bool by_smaller = triangle == Triangle::lower;
   for (uint32_t j = 0; j < n; ++j) {
-    TRY(checkpoint_at_column(context, j));
+    TRY(pace.after(lower.start[j + 1] - lower.start[j]));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
       const uint32_t a = position[lower.row[k]], b = position[j];
       const uint32_t smaller = a < b ? a : b, larger = a < b ? b : a;
@@ -94,9 +93,9 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     }
   }
   starts_from_counts(result->start.span());
-  TRY(in_parts(context, next.size(), [&](size_t j) { next[j] = result->start[j]; }));
+  TRY(copy_in_parts(result->start, &next));
   for (uint32_t j = 0; j < n; ++j) {
-    TRY(checkpoint_at_column(context, j));
+    TRY(pace.after(lower.start[j + 1] - lower.start[j]));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
       const uint32_t a = position[lower.row[k]], b = position[j];
       const uint32_t smaller = a < b ? a : b, larger = a < b ? b : a;

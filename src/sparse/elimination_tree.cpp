@@ -7,8 +7,8 @@ namespace wireskin::sparse {
 Status elimination_tree(const Pattern& upper, Array<uint32_t>* parent) {
   const uint32_t n = static_cast<uint32_t>(upper.start.size() - 1);
   Array<uint32_t> ancestor(upper.start.context());  // a shortcut towards the root
-  TRY(ancestor.assign(n, k_none));
-  TRY(parent->assign(n, k_none));
+  TRY(assign_in_parts(n, k_none, &ancestor));
+  TRY(assign_in_parts(n, k_none, parent));
   for (uint32_t j = 0; j < n; ++j) {
     TRY(checkpoint_at_column(parent->context(), j));
     for (uint32_t k = upper.start[j]; k < upper.start[j + 1]; ++k) {
@@ -34,8 +34,8 @@ Status postorder(Span<const uint32_t> parent, Array<uint32_t>* order) {
   const uint32_t n = static_cast<uint32_t>(parent.size());
   Array<uint32_t> first_child(order->context());
   Array<uint32_t> sibling(order->context());
-  TRY(first_child.assign(n, k_none));
-  TRY(sibling.assign(n, k_none));
+  TRY(assign_in_parts(n, k_none, &first_child));
+  TRY(assign_in_parts(n, k_none, &sibling));
   TRY(order->reserve(n));
   order->clear();
   for (uint32_t j = n; j-- > 0;) {
@@ -79,9 +79,9 @@ Status column_counts(const Pattern& lower, Span<const uint32_t> parent, Array<ui
   Array<uint32_t> latest_first(context);   // 1 + the greatest `first` among the leaves of a row
   TRY(first.resize(n));
   TRY(ancestor.resize(n));
-  TRY(previous_leaf.assign(n, k_none));
-  TRY(latest_first.assign(n, 0));
-  TRY(count->assign(n, 0));
+  TRY(assign_in_parts(n, k_none, &previous_leaf));
+  TRY(assign_in_parts(n, 0, &latest_first));
+  TRY(assign_in_parts(n, 0, count));
   for (uint32_t j = 0; j < n; ++j) first[j] = ancestor[j] = j;
   for (uint32_t j = 0; j < n; ++j) {
     TRY(checkpoint_at_column(context, j));

@@ -76,10 +76,11 @@ static Status build_graph(const Csc& lower, Dissector* d) {
   const uint32_t vertices = static_cast<uint32_t>(g.position.size());
   Context& context = d->start.context();
   Array<uint32_t> next(context), seen(context);
-  TRY(d->start.assign(size_t{vertices} + 1, 0));
-  TRY(d->columns.assign(vertices, 0));
+  TRY(assign_in_parts(size_t{vertices} + 1, 0, &d->start));
+  TRY(assign_in_parts(vertices, 0, &d->columns));
+  Pace pace(context, k_light_steps_per_checkpoint);
   for (uint32_t j = 0; j < lower.cols; ++j) {
-    TRY(checkpoint_at_column(context, j));
+    TRY(pace.after(lower.start[j + 1] - lower.start[j]));
     const uint32_t v = vertex_of(g, j);
     ++d->columns[v];
     for (uint32_t k = lower.start[j] + 1; k < lower.start[j + 1]; ++k) {
@@ -90,9 +91,9 @@ static Status build_graph(const Csc& lower, Dissector* d) {
     }
   }
   TRY(d->neighbour.resize(starts_from_counts(d->start.span())));
-  TRY(next.copy(d->start.span()));
+  TRY(copy_in_parts(d->start, &next));
   for (uint32_t j = 0; j < lower.cols; ++j) {
-    TRY(checkpoint_at_column(context, j));
+    TRY(pace.after(lower.start[j + 1] - lower.start[j]));
     const uint32_t v = vertex_of(g, j);
     for (uint32_t k = lower.start[j] + 1; k < lower.start[j + 1]; ++k) {
       const uint32_t w = vertex_of(g, lower.row[k]);
@@ -102,11 +103,11 @@ static Status build_graph(const Csc& lower, Dissector* d) {
     }
   }
   if (g.vertex.empty()) return {};
-  TRY(seen.assign(vertices, k_none));
+  TRY(assign_in_parts(vertices, k_none, &seen));
   uint32_t write = 0;
   for (uint32_t v = 0; v < vertices; ++v) {
-    TRY(checkpoint_at_column(context, v));
     const uint32_t first = d->start[v], end = d->start[v + 1];
+    TRY(pace.after(end - first));
     d->start[v] = write;
     for (uint32_t k = first; k < end; ++k) {
       const uint32_t w = d->neighbour[k];
@@ -382,7 +383,8 @@ Status nested_dissection(const Csc& lower, const Geometry& geometry, Array<uint3
   TRY(d.keys.resize(vertices > d.patches.size() ? vertices : d.patches.size()));
   TRY(d.layer.resize(vertices));
   TRY(d.order.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) d.order[v] = v;
+  TRY(in_parts<k_light_steps_per_checkpoint>(
+      context, vertices, [&](size_t v) { d.order[v] = static_cast<uint32_t>(v); }));
   TRY(d.stack.push({0, vertices, 0, static_cast<uint32_t>(d.patches.size())}));
   while (!d.stack.empty()) {
     const Stretch s = d.stack.back();
@@ -396,8 +398,11 @@ Status nested_dissection(const Csc& lower, const Geometry& geometry, Array<uint3
   // Columns of a vertex are neighbours in the matrix: where each begins, and all of them.
   order->clear();
   Array<uint32_t> first(context);
-  TRY(first.assign(size_t{vertices} + 1, lower.cols));
-  for (uint32_t j = lower.cols; j-- > 0;) first[vertex_of(geometry, j)] = j;
+  TRY(assign_in_parts(size_t{vertices} + 1, lower.cols, &first));
+  TRY(in_parts(context, lower.cols, [&](size_t i) {
+    const uint32_t j = lower.cols - 1 - static_cast<uint32_t>(i);
+    first[vertex_of(geometry, j)] = j;
+  }));
   return in_parts(context, vertices, [&](size_t k) {
     const uint32_t v = d.order[k];
     for (uint32_t j = first[v]; j < lower.cols && vertex_of(geometry, j) == v; ++j) {

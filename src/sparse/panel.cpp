@@ -10,10 +10,11 @@ static constexpr uint32_t k_diagonal_blocks = k_panel_block / DiagonalBlock::k_s
 
 namespace {
 
-// Some columns under way: their diagonal blocks once these are factored.
+// Some columns under way: the columns before them whose products they lose at a time, and their
+// diagonal blocks once these are factored.
 struct ColumnBlock {
-  uint32_t first;
-  uint32_t count;
+  uint32_t first, count;
+  uint32_t from, depth;
   DiagonalBlock diagonal[k_diagonal_blocks];
 };
 
@@ -66,17 +67,17 @@ static uint32_t columns_of_diagonal(const ColumnBlock& block, uint32_t offset) {
   return left < DiagonalBlock::k_size ? left : DiagonalBlock::k_size;
 }
 
-// The rows first .. end of a block of columns lose what the columns before `from_column` inside
-// the block contribute to `columns` columns at `column`.
-static void update_columns(const PanelTools& tools, const Panel& panel, uint32_t from_column,
-                           uint32_t column, uint32_t columns, uint32_t first, uint32_t end,
-                           double* scratch) {
-  if (column == from_column) return;
-  const size_t step = panel.step(from_column);
-  tools.kernels->update({end - first, columns, column - from_column, panel.at(first, from_column),
-                         step, panel.at(column, from_column), 1, step, panel.at(first, column),
-                         panel.step(column), first == column, false, true, true},
-                        scratch);
+// The rows first .. end of `columns` columns at `column` lose what `depth` columns at `from`
+// contribute.
+static void update_columns(const PanelTools& tools, const Panel& panel, uint32_t from,
+                           uint32_t depth, uint32_t column, uint32_t columns, uint32_t first,
+                           uint32_t end, double* scratch) {
+  if (depth == 0) return;
+  const size_t step = panel.step(from);
+  tools.kernels->update(
+      {end - first, columns, depth, panel.at(first, from), step, panel.at(column, from), 1, step,
+       panel.at(first, column), panel.step(column), first == column, false, true, true},
+      scratch);
 }
 
 // Factors the block's columns in the rows from the block's first on down to `end`.
@@ -88,7 +89,7 @@ static uint32_t factor_block(const PanelTools& tools, const Panel& panel, uint32
     const uint32_t column = block->first + j;
     const size_t step = panel.step(column);
     double* at = panel.at(column, column);
-    update_columns(tools, panel, block->first, column, d->columns, column, end, tools.scratch);
+    update_columns(tools, panel, block->first, j, column, d->columns, column, end, tools.scratch);
     const uint32_t bad = factor_diagonal(at, step, d);
     if (bad != k_none) return column + bad;
     // Rows are solved in fours; those of the diagonal block that come along are stored again.
@@ -106,16 +107,18 @@ static void solve_rows_below(const PanelParts& parts, uint32_t first, uint32_t e
   for (uint32_t j = 0; j < block.count; j += DiagonalBlock::k_size) {
     const DiagonalBlock& d = block.diagonal[j / DiagonalBlock::k_size];
     const uint32_t column = block.first + j;
-    update_columns(*parts.tools, *parts.panel, block.first, column, d.columns, first, end, scratch);
+    update_columns(*parts.tools, *parts.panel, block.first, j, column, d.columns, first, end,
+                   scratch);
     parts.tools->kernels->solve_block(d, end - first, parts.panel->at(first, column),
                                       static_cast<ptrdiff_t>(parts.panel->step(column)));
   }
 }
 
-// The rows first .. end of the block lose what all columns before the block contribute.
+// The rows first .. end of the block.
 static void update_rows(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch) {
-  update_columns(*parts.tools, *parts.panel, 0, parts.block->first, parts.block->count, first, end,
-                 scratch);
+  const ColumnBlock& block = *parts.block;
+  update_columns(*parts.tools, *parts.panel, block.from, block.depth, block.first, block.count,
+                 first, end, scratch);
 }
 
 // The columns first .. end of the update matrix.
@@ -154,7 +157,7 @@ static ColumnBlock block_at(const Panel& panel, uint32_t first) {
 uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
   for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
     ColumnBlock block = block_at(panel, first);
-    update_columns(tools, panel, 0, first, block.count, first, panel.rows(), tools.scratch);
+    update_columns(tools, panel, 0, first, first, block.count, first, panel.rows(), tools.scratch);
     const uint32_t bad = factor_block(tools, panel, panel.rows(), &block);
     if (bad != k_none) return bad;
   }
@@ -224,6 +227,19 @@ static Status update_tail_in_parts(Context& context, const PanelTools& tools, co
   return {};
 }
 
+// The same for a block of the panel's own columns and its rows from `below` on.
+static Status update_rows_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
+                                   uint32_t below, ColumnBlock* block) {
+  constexpr uint32_t k_most_depth = 4 * k_block_depth;
+  for (block->from = 0; block->from < block->first; block->from += block->depth) {
+    const uint32_t left = block->first - block->from;
+    block->depth = left < k_most_depth ? left : k_most_depth;
+    TRY(run_parts(context, {&tools, &panel, block, nullptr, below, panel.rows(), 0, &update_rows},
+                  double{k_panel_block} * block->depth));
+  }
+  return {};
+}
+
 Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
                              uint32_t* bad_column) {
   *bad_column = k_none;
@@ -231,11 +247,10 @@ Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Pa
   for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
     ColumnBlock block = block_at(panel, first);
     const uint32_t below = round_up_rows(first + block.count);
-    update_columns(tools, panel, 0, first, block.count, first, below, tools.scratch);
+    update_columns(tools, panel, 0, first, first, block.count, first, below, tools.scratch);
     if (below < rows) {
       TRY(context.checkpoint());
-      TRY(run_parts(context, {&tools, &panel, &block, nullptr, below, rows, 0, &update_rows},
-                    double{k_panel_block} * (first + 1)));
+      TRY(update_rows_in_parts(context, tools, panel, below, &block));
     }
     *bad_column = factor_block(tools, panel, below, &block);
     if (*bad_column != k_none) return {};

@@ -1,5 +1,7 @@
 #include "sparse/product.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::sparse {
 
 namespace {
@@ -29,25 +31,18 @@ struct Factors {
 
 }  // namespace
 
-// Columns may be long, so the multiplications are counted instead of the columns.
-static Status pause_for_checkpoint(Context& context, size_t* work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 18;
-  if (*work < k_work_per_checkpoint) return {};
-  *work = 0;
-  return context.checkpoint();
-}
-
 // Gathers column `column` of B's numbering, which is unknown j, and leaves its rows unsorted.
-// Weights of zero are no reason to skip an entry: the pattern must not depend on values.
+// Weights of zero are no reason to skip an entry: the pattern must not depend on values. Columns
+// may be long, so the multiplications are counted instead of the columns.
 static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
-                          Accumulator* gathered, size_t* work) {
+                          Accumulator* gathered, Pace* pace) {
   uint32_t* const mark = gathered->mark.data();
   uint32_t* const rows = gathered->rows.data();
   double* const sum = gathered->sum.data();
   uint32_t count = 0;
   for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
     const uint32_t inner = factors.b.row[q];
-    *work += factors.a.start[inner + 1] - factors.a.start[inner];
+    pace->add(factors.a.start[inner + 1] - factors.a.start[inner]);
     const double scale = factors.weight[inner] * factors.b.value[q];
     for (uint32_t p = factors.a.start[inner + 1]; p-- > factors.a.start[inner];) {
       if (factors.ends_at(factors.a.row[p], column)) break;
@@ -66,18 +61,17 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
 }
 
 // About the number of entries of the product, from every 32nd column.
-static Status estimate_entries(const Factors& factors, Accumulator* gathered, size_t* work,
+static Status estimate_entries(const Factors& factors, Accumulator* gathered, Pace* pace,
                                size_t* entries) {
   constexpr uint32_t k_step = 32;
   size_t total = 0;
   uint32_t j = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
-    TRY(checkpoint_at_column(gathered->mark.context(), column));
+    TRY(pace->after());
     if (factors.unknown[column] == k_none) continue;
     if (j % k_step == 0) {
-      gather_column(factors, column, j, gathered, work);
+      gather_column(factors, column, j, gathered, pace);
       total += gathered->count;
-      TRY(pause_for_checkpoint(gathered->mark.context(), work));
     }
     ++j;
   }
@@ -100,25 +94,26 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   Context& context = product->start.context();
   const Factors factors = {a, weight, b, unknown, part};
   Accumulator gathered(context);
-  size_t work = 0, room = 0, entries = 0;
-  TRY(gathered.mark.assign(unknowns, k_none));
-  TRY(gathered.sum.assign(unknowns, 0.0));
+  Pace pace(context, k_light_steps_per_checkpoint);
+  size_t room = 0, entries = 0;
+  TRY(assign_in_parts(unknowns, k_none, &gathered.mark));
+  TRY(assign_in_parts(unknowns, 0.0, &gathered.sum));
   TRY(gathered.rows.resize(size_t{unknowns} + 1));
   TRY(product->start.resize(size_t{unknowns} + 1));
   product->rows = product->cols = unknowns;
   product->row.clear();
   product->value.clear();
-  TRY(estimate_entries(factors, &gathered, &work, &entries));
+  TRY(estimate_entries(factors, &gathered, &pace, &entries));
   TRY(make_room(entries, &room, product));
-  for (uint32_t& m : gathered.mark) m = k_none;
+  TRY(assign_in_parts(unknowns, k_none, &gathered.mark));
   uint32_t j = 0;
   for (uint32_t column = 0; column < b.cols; ++column) {
     if (unknown[column] == k_none) continue;
-    gather_column(factors, column, j, &gathered, &work);
+    gather_column(factors, column, j, &gathered, &pace);
     TRY(make_room(gathered.count, &room, product));
     product->start[j++] = static_cast<uint32_t>(product->row.size());
     TRY(append_column(gathered.rows.span().part(0, gathered.count), gathered.sum.span(), product));
-    TRY(pause_for_checkpoint(context, &work));
+    TRY(pace.after());
   }
   product->start[unknowns] = static_cast<uint32_t>(product->row.size());
   return {};

@@ -6,7 +6,7 @@ namespace wireskin {
 
 // Half the length of the curve edges at each vertex: how much of its curve a vertex stands for.
 static Status curve_shares(const Surface& surface, Array<double>* share) {
-  TRY(share->assign(surface.position.size(), 0.0));
+  TRY(assign_in_parts(surface.position.size(), 0.0, share));
   for (size_t e = 0; e < surface.curve_edge.size(); e += 2) {
     const uint32_t a = surface.curve_edge[e], b = surface.curve_edge[e + 1];
     const double half = 0.5 * length(surface.position[b] - surface.position[a]);
@@ -41,7 +41,7 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
   }));
   if (!any) return {};
   TRY(curve_shares(surface, &constraints->share));
-  TRY(constraints->cutoff.assign(n, -1.0));
+  TRY(assign_in_parts(n, -1.0, &constraints->cutoff));
   for (size_t e = 0; e < surface.curve_edge.size(); ++e) {
     double& cutoff = constraints->cutoff[surface.curve_edge[e]];
     const uint32_t curve = surface.curve_edge_curve[e / 2];
@@ -67,10 +67,10 @@ Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* c
   if (!soft) return {};
   Array<double> all(context);
   Array<uint32_t> count(context);
-  TRY(constraints->cutoff.assign(n, 0.0));
-  TRY(constraints->share.assign(n, 0.0));
-  TRY(all.assign(n, 0.0));
-  TRY(count.assign(n, 0));
+  TRY(assign_in_parts(n, 0.0, &constraints->cutoff));
+  TRY(assign_in_parts(n, 0.0, &constraints->share));
+  TRY(assign_in_parts(n, 0.0, &all));
+  TRY(assign_in_parts(n, 0, &count));
   TRY(in_parts(context, set.triangle.size(), [&](size_t h) {
     // Inner edges are met twice, those of a border once; a quarter and a half of a length is near
     // enough.

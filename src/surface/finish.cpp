@@ -83,7 +83,7 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                            smooth::Method method, Surface* surface) {
   Counts* counts = &surface->counts;
   Array<uint32_t> vertex_patch(context);
-  TRY(vertex_patch.assign(piece.position.size(), 0));
+  TRY(assign_in_parts(piece.position.size(), 0, &vertex_patch));
   TRY(mesh::patches_of_vertices(context, piece.triangle, surface->patch.span(),
                                 vertex_patch.span()));
   const smooth::Places places = {piece.start, vertex_patch.span()};
@@ -180,9 +180,9 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   if (!constraints.cutoff.empty()) {
     TRY(cutoff.resize(copies));
     TRY(share.resize(copies));
-    TRY(anchor.copy(creased->position.span()));
+    TRY(copy_in_parts(creased->position.span(), &anchor));
   }
-  TRY(given_normal.copy(creased->normal.span()));
+  TRY(copy_in_parts(creased->normal.span(), &given_normal));
   TRY(in_parts(context, copies, [&](size_t c) {
     const uint32_t v = creased->cut.origin[c];
     on_curve[c] = constraints.on_curve[v];

@@ -22,7 +22,7 @@ static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& m
   const size_t samples = flow.samples.position.size();
   Context& context = outcome->vertex_of.context();
   Array<uint32_t> number(context);
-  TRY(number.assign(mesh.position.size(), k_none));
+  TRY(assign_in_parts(mesh.position.size(), k_none, &number));
   TRY(in_parts(context, mesh.triangle.size(), [&](size_t i) { number[mesh.triangle[i]] = 0; }));
   for (const uint32_t v : flow.samples.at) number[v] = 0;
   TRY(surface->position.reserve(mesh.position.size()));
@@ -35,7 +35,7 @@ static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& m
   TRY(surface->triangle.resize(mesh.triangle.size()));
   TRY(in_parts(context, mesh.triangle.size(),
                [&](size_t i) { surface->triangle[i] = number[mesh.triangle[i]]; }));
-  TRY(surface->patch.copy(mesh.patch.span()));
+  TRY(copy_in_parts(mesh.patch.span(), &surface->patch));
   number.shrink(samples);
   outcome->vertex_of = static_cast<Array<uint32_t>&&>(number);
   return {};
@@ -44,7 +44,7 @@ static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& m
 static Status take_flow_curves(const flow::Flow& flow, Span<const uint32_t> vertex_of,
                                Surface* surface) {
   const flow::Samples& samples = flow.samples;
-  TRY(surface->vertex_curve.assign(surface->position.size(), k_none));
+  TRY(assign_in_parts(surface->position.size(), k_none, &surface->vertex_curve));
   TRY(surface->curve_edge.reserve(2 * samples.at.size()));
   TRY(surface->curve_edge_curve.reserve(samples.at.size()));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
@@ -96,7 +96,7 @@ static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
                                 Array<Vec3>* offset) {
   const flow::Samples& samples = flow.samples;
   const flow::Arcs& arcs = flow.arcs;
-  TRY(offset->assign(surface->position.size(), Vec3{}));
+  TRY(assign_in_parts(surface->position.size(), Vec3{}, offset));
   Array<Vec3> normal(surface->normal.context());
   TRY(normals_of_vertices(flow, given, &normal));
   for (uint32_t i = 0; i < samples.at.size(); ++i) {
@@ -166,8 +166,8 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   TRY(surface->normal.resize(n));
   TRY(mesh::vertex_normals(context, surface->position.span(), surface->triangle.span(),
                            surface->normal.span()));
-  TRY(surface->mean_curvature.assign(n, 0.0));
-  TRY(surface->gaussian_curvature.assign(n, 0.0));
+  TRY(assign_in_parts(n, 0.0, &surface->mean_curvature));
+  TRY(assign_in_parts(n, 0.0, &surface->gaussian_curvature));
   Array<uint8_t> on_curve(context);
   TRY(on_curve.resize(n));
   for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
@@ -244,8 +244,8 @@ static Status smooth_or_restore(Context& context, const mesh::Topology& topology
   constexpr size_t k_most_pairs = 1000;
   Array<Vec3> position(context);
   Array<uint32_t> triangle(context), pairs(context);
-  TRY(position.copy(surface->position.span()));
-  TRY(triangle.copy(surface->triangle.span()));
+  TRY(copy_in_parts(surface->position.span(), &position));
+  TRY(copy_in_parts(surface->triangle.span(), &triangle));
   for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
   const Status status = smooth_flow_surface(context, topology, method, surface);
   if (status.ok()) {
@@ -341,7 +341,7 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
     TRY(take_flow_vertices(flow, mesh, surface, outcome));
   }
   TRY(take_flow_curves(flow, outcome->vertex_of.span(), surface));
-  TRY(surface->constraint_normal.assign(surface->position.size(), Vec3{}));
+  TRY(assign_in_parts(surface->position.size(), Vec3{}, &surface->constraint_normal));
   TRY(context.checkpoint());
   Array<Vec3> offset(context);
   if (!settings.normal.empty()) {

@@ -82,3 +82,38 @@ TEST_CASE("room made in parts keeps what there was, and grows as push() does") {
   REQUIRE(array.size() == k_size);
   for (uint32_t i = 0; i < k_size; ++i) REQUIRE(array[i] == i);
 }
+
+TEST_CASE("arrays are filled and copied in parts, and a caller is asked by the way") {
+  constexpr size_t k_light = wireskin::k_light_steps_per_checkpoint;
+  for (const size_t size : {size_t{0}, size_t{5}, k_light - 1, k_light, 2 * k_light + 7}) {
+    unit::Heap heap;
+    wireskin::Array<uint32_t> array(heap.context), copy(heap.context), again(heap.context);
+    unit::must(assign_in_parts(3, 1, &array));
+    unit::must(assign_in_parts(size, 7, &array));
+    REQUIRE(array.size() == size);
+    for (const uint32_t value : array) REQUIRE(value == 7);
+    for (size_t i = 0; i < size; ++i) array[i] = static_cast<uint32_t>(i);
+    unit::must(copy_in_parts(array, &copy));
+    unit::must(copy_in_parts(array.span(), &again));
+    CHECK(heap.checkpoints == 3 * (size / k_light));
+    REQUIRE(copy.size() == size);
+    REQUIRE(again.size() == size);
+    for (size_t i = 0; i < size; ++i) REQUIRE((copy[i] == i && again[i] == i));
+    // A value may stand in the array that it fills.
+    if (size == 5) {
+      unit::must(assign_in_parts(3 * size, array[4], &array));
+      for (const uint32_t value : array) REQUIRE(value == 4);
+    }
+    heap.cancel_at = heap.checkpoints;
+    CHECK(assign_in_parts(k_light, 0, &array).code == wireskin::Code::cancelled);
+  }
+}
+
+TEST_CASE("a pace of light steps asks less often") {
+  unit::Heap heap;
+  wireskin::Pace pace(heap.context, 10);
+  for (int i = 0; i < 9; ++i) unit::must(pace.after());
+  CHECK(heap.checkpoints == 0);
+  unit::must(pace.after());
+  CHECK(heap.checkpoints == 1);
+}

@@ -40,14 +40,15 @@ TEST_CASE("sort in parts: in order whatever the input, and a caller is asked by 
   }
   for (const auto& keys : {shuffled, ascending, descending, equal, pipe}) {
     const size_t asked = check_sort(keys);
-    CHECK(asked >= n / 8192);
-    CHECK(asked < 8 * n / 8192);
+    CHECK(asked >= n / wireskin::k_steps_per_checkpoint);
+    CHECK(asked < 8 * n / wireskin::k_steps_per_checkpoint);
   }
 }
 
 TEST_CASE("sort in parts: a few values are sorted without asking") {
   Random random(3);
-  for (const uint32_t n : {0u, 1u, 2u, 17u, 8192u}) {
+  const uint32_t most = wireskin::k_steps_per_checkpoint;
+  for (const uint32_t n : {0u, 1u, 2u, 17u, most}) {
     std::vector<uint32_t> keys(n);
     for (uint32_t& k : keys) k = random.below(n);
     CHECK(check_sort(keys) == 0);
