@@ -54,7 +54,8 @@ Box BoxTree::bound(uint32_t first, uint32_t count) const {
   return box;
 }
 
-// Equal places by index.
+// Moves the half of lesser centres, along the axis in which they spread most, to the front; equal
+// ones are told apart by index.
 Status BoxTree::halve(uint32_t first, uint32_t count) {
   Vec3 low = twice_centre(boxes_[order_[first]]), high = low;
   for (uint32_t i = first; i < first + count; ++i) {

@@ -175,19 +175,6 @@ static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
   return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
 }
 
-// Room for `more` elements; grows as push() does, but what is moved may be long.
-template <typename T>
-static Status reserve_more(Array<T>* array, size_t more) {
-  const size_t room = array->capacity_bytes() / sizeof(T), needed = array->size() + more;
-  if (needed <= room) return {};
-  Array<T> grown(array->context());
-  TRY(grown.reserve(needed < room + room / 2 ? room + room / 2 : needed));
-  TRY(in_parts(array->context(), array->size(),
-               [&](size_t i) { grown.push_reserved((*array)[i]); }));
-  *array = static_cast<Array<T>&&>(grown);
-  return {};
-}
-
 // Notes the chords of triangle `t`, whose vertices among the patch's are `corner`, and its corners
 // if it has any.
 static Status note_chords(const PatchScratch& scratch, const uint32_t* corner, uint32_t t,
@@ -212,11 +199,11 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   PatchMesh* mesh = builder->mesh;
   const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
   const size_t first = mesh->patch.size(), more = triangle.size() / 3;
-  TRY(reserve_more(&mesh->triangle, triangle.size()));
-  TRY(reserve_more(&mesh->patch, more));
-  TRY(reserve_more(&mesh->shape, more));
-  TRY(reserve_more(&mesh->start, scratch.inner.size()));
-  TRY(reserve_more(&mesh->placed, scratch.inner.size()));
+  TRY(make_room_in_parts(triangle.size(), &mesh->triangle));
+  TRY(make_room_in_parts(more, &mesh->patch));
+  TRY(make_room_in_parts(more, &mesh->shape));
+  TRY(make_room_in_parts(scratch.inner.size(), &mesh->start));
+  TRY(make_room_in_parts(scratch.inner.size(), &mesh->placed));
   for (size_t t = 0; t < more; ++t) {
     const uint32_t* corner = &triangle[3 * t];
     const auto global = [&](uint32_t v) {
