@@ -1,6 +1,7 @@
 #include "mesh/loop_refine.h"
 
 #include "base/in_parts.h"
+#include "base/search.h"
 #include "base/sort.h"
 #include "mesh/curvature.h"
 #include "num/minmax.h"
@@ -78,17 +79,11 @@ struct Stars {
 static bool is_held(const LoopRefinement& r, uint32_t u, uint32_t v) {
   if (u >= r.rim || v >= r.rim || r.edge.empty()) return false;
   const uint32_t a = u < v ? u : v, b = u < v ? v : u;
-  size_t low = 0, high = r.edge.size() / 2;
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    const uint32_t* e = &r.edge[2 * middle];
-    if (e[0] < a || (e[0] == a && e[1] < b)) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return 2 * low < r.edge.size() && r.edge[2 * low] == a && r.edge[2 * low + 1] == b;
+  const size_t i = first_failing(size_t{0}, r.edge.size() / 2, [&](size_t k) {
+    const uint32_t* e = &r.edge[2 * k];
+    return e[0] < a || (e[0] == a && e[1] < b);
+  });
+  return 2 * i < r.edge.size() && r.edge[2 * i] == a && r.edge[2 * i + 1] == b;
 }
 
 static Diamond diamond_at(const LoopRefinement& r, uint32_t h) {

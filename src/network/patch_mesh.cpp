@@ -1,6 +1,7 @@
 #include "network/patch_mesh.h"
 
 #include "base/in_parts.h"
+#include "base/search.h"
 #include "base/sort.h"
 #include "mesh/check.h"
 #include "mesh/inlay.h"
@@ -159,16 +160,9 @@ static Status take_domain(const Network& network, const CurveVertices& vertices,
 
 static bool find_edge(Span<const Chord> sorted, uint32_t a, uint32_t b) {
   const Chord edge = {a, b, k_none};
-  size_t low = 0, high = sorted.size();
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    if (before(sorted[middle], edge)) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < sorted.size() && sorted[low].a == a && sorted[low].b == b;
+  const size_t i =
+      first_failing(size_t{0}, sorted.size(), [&](size_t k) { return before(sorted[k], edge); });
+  return i < sorted.size() && sorted[i].a == a && sorted[i].b == b;
 }
 
 static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
@@ -448,13 +442,11 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
 }
 
 static TriangleCorners* corners_of(uint32_t triangle, Builder* builder) {
-  size_t first = 0, end = builder->cornered.size();
-  while (first + 1 < end) {
-    const size_t middle = first + (end - first) / 2;
-    (builder->cornered[middle].triangle <= triangle ? first : end) = middle;
-  }
-  WIRESKIN_ASSERT(first < end && builder->cornered[first].triangle == triangle);
-  return &builder->cornered[first];
+  const size_t i = last_holding(size_t{0}, builder->cornered.size(), [&](size_t k) {
+    return builder->cornered[k].triangle <= triangle;
+  });
+  WIRESKIN_ASSERT(builder->cornered[i].triangle == triangle);
+  return &builder->cornered[i];
 }
 
 static mesh::TriangleShape shape_of(const TriangleCorners& corners) {
