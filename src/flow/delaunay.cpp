@@ -127,9 +127,10 @@ static Status take_slots(DelaunayBuilder* b) {
     return fail(Code::too_large, "the Delaunay triangulation has more tetrahedra than allowed");
   }
   TRY(make_room_in_parts(missing, &b->tets));
+  TRY(make_room_in_parts(missing, &b->mark));
   for (size_t i = 0; i < missing; ++i) {
     b->tets.push_reserved({});
-    TRY(b->mark.push(k_unseen));
+    b->mark.push_reserved(k_unseen);
   }
   for (size_t i = 0; i < b->outline.size(); ++i) {
     if (i < missing) {
