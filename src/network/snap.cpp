@@ -206,10 +206,14 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
 Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
                          SnapResult* result) {
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
+  constexpr size_t k_steps_of_join = 512;  // it may pass all joints of an edge
+  Pace pace(context());
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
-      if (plan.pass[k] == now) TRY(join(approaches[k], plan.beside[k] != 0, result));
-      if (k % 64 == 63) TRY(context().checkpoint());
+      TRY(pace.after());
+      if (plan.pass[k] != now) continue;
+      TRY(join(approaches[k], plan.beside[k] != 0, result));
+      TRY(pace.after(k_steps_of_join));
     }
   }
   return {};
