@@ -569,7 +569,8 @@ typedef struct wsk_connect_options {
   /* How far apart, in your units, curves may be that are meant to meet. Negative: only what
      coincides is joined. 0 (the default): the median distance of neighbouring samples, at most a
      hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused, and
-     what brings more places near each other than 16 for each sample and one for each two curves. */
+     what brings more places near each other than 16 for each sample and one for each pair of
+     curves, of pairs at most 262144. */
   double snap;
   wsk_chain chain;
   /* A turn by more than this is a corner: curves are not chained through it. 0 (the default): 60

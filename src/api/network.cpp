@@ -3,7 +3,6 @@
 #include "api/boundary.h"
 #include "api/network_view.h"
 #include "api/raw_curves.h"
-#include "base/sort.h"
 #include "network/integrate.h"
 #include "num/trig.h"
 
@@ -75,7 +74,8 @@ static Status connect(Context& context, const wsk_curve* curves, size_t count,
   TRY(read_raw_curves(curves, count, &wires));
   TRY(find_scale(wires.position.span(), &exponent));
   const Scale scale(-exponent);
-  for (Vec3& p : wires.position) p = scale(p);
+  TRY(in_parts(context, wires.samples(),
+               [&](size_t i) { wires.position[i] = scale(wires.position[i]); }));
   TRY(check_extents(wires));
   const double diagonal = box_diagonal(wires.position.span());
   network::ConnectOptions chosen;
@@ -114,33 +114,13 @@ static void drop_repeated(network::Wires* wires) {
 
 // The points of sensor samples: by number, and the end of a closed curve is its beginning.
 static Status weld_sensor(Context& context, network::Wires* wires) {
-  Array<uint32_t> order(context), name(context);
   network::DisjointSets sets(context);
-  const uint32_t n = wires->samples();
-  TRY(order.reserve(n));
-  TRY(name.assign(n, k_none));
-  TRY(sets.reset(n));
-  TRY(wires->point.resize(n));
+  TRY(sets.reset(wires->samples()));
   for (uint32_t c = 0; c < wires->curves(); ++c) {
     if (wires->closed[c]) sets.unite(wires->start[c], wires->start[c + 1] - 1);
   }
-  for (uint32_t i = 0; i < n; ++i) {
-    if (wires->number[i] != k_none) order.push_reserved(i);
-  }
-  const Span<const uint32_t> number = wires->number.span();
-  sort(order.span(), [number](uint32_t a, uint32_t b) {
-    return number[a] != number[b] ? number[a] < number[b] : a < b;
-  });
-  for (size_t k = 1; k < order.size(); ++k) {
-    if (number[order[k]] == number[order[k - 1]]) sets.unite(order[k], order[k - 1]);
-  }
-  wires->points = 0;
-  for (uint32_t i = 0; i < n; ++i) {
-    const uint32_t root = sets.find(i);
-    if (name[root] == k_none) name[root] = wires->points++;
-    wires->point[i] = name[root];
-  }
-  return {};
+  TRY(network::unite_numbers(*wires, &sets));
+  return network::number_points(&sets, wires);
 }
 
 // The power of two that brings the longest curve to one half up to one.

@@ -1,7 +1,7 @@
 #include "api/network_view.h"
 
 #include "api/input.h"
-#include "base/sort.h"
+#include "base/sort_in_parts.h"
 #include "num/trig.h"
 
 namespace wireskin::api {
@@ -29,13 +29,13 @@ static Status number_nodes(Context& context, const network::Wires& wires, NodeNu
   TRY(members.assign(wires.points, 0));
   TRY(used.reserve(wires.samples()));
   TRY(numbers->of_sample.resize(wires.samples()));
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
+  TRY(in_parts(context, wires.samples(), [&](size_t i) {
     uint32_t& number = least_number[wires.point[i]];
     number = wires.number[i] < number ? wires.number[i] : number;
     ++members[wires.point[i]];
     if (wires.number[i] != k_none) used.push_reserved(wires.number[i]);
-  }
-  sort(used.span(), [](uint32_t a, uint32_t b) { return a < b; });
+  }));
+  TRY(sort_in_parts(context, used.span(), [](uint32_t a, uint32_t b) { return a < b; }));
   // Above all of the caller's where there is room, else in the gaps between them.
   const uint32_t most = used.empty() ? 0 : used.back();
   uint32_t next = used.empty() ? 0 : most < k_none - 1 - wires.points ? most + 1 : 0;
@@ -47,11 +47,10 @@ static Status number_nodes(Context& context, const network::Wires& wires, NodeNu
     numbers->most_fresh = next;
     least_number[p] = next++;
   }
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
+  return in_parts(context, wires.samples(), [&](size_t i) {
     const uint32_t p = wires.point[i];
     numbers->of_sample[i] = members[p] < 2 ? wires.number[i] : least_number[p];
-  }
-  return {};
+  });
 }
 
 // Normals that did not change leave as they came: not made unit, or another call would make them
@@ -177,27 +176,27 @@ static void write_normals(const network::Wires& wires, const NetworkLayout& layo
   right[3 * i] = r.x, right[3 * i + 1] = r.y, right[3 * i + 2] = r.z;
 }
 
-static void write_samples(const network::Wires& wires, const NodeNumbers& numbers,
-                          const NetworkLayout& layout, const wsk_curve* given, unsigned char* block,
-                          wsk_network_view* view) {
+static Status write_samples(const network::Wires& wires, const NodeNumbers& numbers,
+                            const NetworkLayout& layout, const wsk_curve* given,
+                            unsigned char* block, wsk_network_view* view) {
   uint32_t* nodes = reinterpret_cast<uint32_t*>(block + layout.nodes);
   uint32_t* given_curve = reinterpret_cast<uint32_t*>(block + layout.given_curve);
   uint32_t* given_sample = reinterpret_cast<uint32_t*>(block + layout.given_sample);
   double* given_part = reinterpret_cast<double*>(block + layout.given_part);
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    const network::Origin& origin = wires.origin[i];
-    write_normals(wires, layout, given, i, block);
-    nodes[i] = numbers.of_sample[i];
-    given_curve[i] = origin.curve;
-    given_sample[i] = origin.sample;
-    given_part[i] = origin.part;
-  }
   uint32_t* first = reinterpret_cast<uint32_t*>(block + layout.first);
-  for (size_t c = 0; c < wires.start.size(); ++c) first[c] = wires.start[c];
   view->first_sample = first;
   view->given_curve = given_curve;
   view->given_sample = given_sample;
   view->given_part = given_part;
+  for (size_t c = 0; c < wires.start.size(); ++c) first[c] = wires.start[c];
+  return in_parts(wires.origin.context(), wires.samples(), [&](size_t i) {
+    const network::Origin& origin = wires.origin[i];
+    write_normals(wires, layout, given, static_cast<uint32_t>(i), block);
+    nodes[i] = numbers.of_sample[i];
+    given_curve[i] = origin.curve;
+    given_sample[i] = origin.sample;
+    given_part[i] = origin.part;
+  });
 }
 
 Status make_network(Context& context, const network::Wires& wires,
@@ -224,7 +223,7 @@ Status make_network(Context& context, const network::Wires& wires,
   view.sample_count = wires.samples();
   const double* positions = nullptr;  // the curves point into them
   TRY(write_vectors(context, wires.position.span(), lengths, block + layout.positions, &positions));
-  write_samples(wires, numbers, layout, given, block, &view);
+  TRY(write_samples(wires, numbers, layout, given, block, &view));
   view.curves = write_curves(wires, layout, block);
   write_events(result, lengths, layout, block, &view);
   return context.progress(1.0);

@@ -1,5 +1,7 @@
 #include "api/raw_curves.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::api {
 
 // A unit normal, or zero where the caller has none.
@@ -32,9 +34,10 @@ static Status count_raw_samples(const Kind* curves, size_t count, size_t* total)
   return {};
 }
 
-static Status read_raw_curve(const wsk_curve& curve, uint32_t index, bool sharp,
+static Status read_raw_curve(const wsk_curve& curve, uint32_t index, bool sharp, Pace* pace,
                              network::Wires* wires) {
   for (uint32_t i = 0; i < curve.sample_count; ++i) {
+    TRY(pace->after());
     const Place place = sample_place(index, i);
     Vec3 position, normal, right;
     TRY(read_position({curve.positions, curve.position_stride}, i, place, &position));
@@ -74,7 +77,8 @@ Status read_raw_curves(const wsk_curve* curves, size_t count, network::Wires* wi
   TRY(network::reserve_wires(static_cast<uint32_t>(count), static_cast<uint32_t>(total), sharp,
                              wires));
   wires->start.push_reserved(0);
-  for (uint32_t c = 0; c < count; ++c) TRY(read_raw_curve(curves[c], c, sharp, wires));
+  Pace pace(wires->position.context());
+  for (uint32_t c = 0; c < count; ++c) TRY(read_raw_curve(curves[c], c, sharp, &pace, wires));
   return {};
 }
 
@@ -109,7 +113,9 @@ static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
     return fail(Code::bad_argument, "the curve has no arc lengths or no tangents",
                 curve_place(index));
   }
+  Pace pace(sensor->arc.context());
   for (uint32_t i = 0; i < curve.sample_count; ++i) {
+    TRY(pace.after());
     TRY(read_sensor_sample(curve, index, i, sensor));
   }
   network::Wires& wires = sensor->wires;

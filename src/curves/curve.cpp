@@ -1,5 +1,6 @@
 #include "curves/curve.h"
 
+#include "base/search.h"
 #include "curves/opposed.h"
 
 namespace wireskin::curves {
@@ -264,11 +265,8 @@ Status add_curve(const Samples& samples, Curves* curves) {
 }
 
 CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s) {
-  size_t low = first, high = last;
-  while (high - low > 1) {
-    const size_t middle = low + (high - low) / 2;
-    (curve.arc[middle] <= s ? low : high) = middle;
-  }
+  const size_t low =
+      last_holding(size_t{first}, size_t{last}, [&](size_t i) { return curve.arc[i] <= s; });
   const double inside = s - curve.arc[low];
   const double whole = curve.arc[low + 1] - curve.arc[low];
   double t = curve.position.knot[low];

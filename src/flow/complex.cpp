@@ -1,5 +1,6 @@
 #include "flow/complex.h"
 
+#include "base/search.h"
 #include "flow/delaunay.h"
 #include "flow/gabriel.h"
 #include "flow/jitter.h"
@@ -25,17 +26,10 @@ uint32_t find_edge(const Complex& complex, uint32_t u, uint32_t v) {
     u = v;
     v = kept;
   }
-  uint32_t low = complex.edge_first[u];
-  uint32_t high = complex.edge_first[u + 1];
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (complex.edge[2 * middle + 1] < v) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < complex.edge_first[u + 1] && complex.edge[2 * low + 1] == v ? low : k_none;
+  const uint32_t end = complex.edge_first[u + 1];
+  const uint32_t e = first_failing(complex.edge_first[u], end,
+                                   [&](uint32_t i) { return complex.edge[2 * i + 1] < v; });
+  return e < end && complex.edge[2 * e + 1] == v ? e : k_none;
 }
 
 Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {

@@ -10,21 +10,10 @@ namespace wireskin::flow {
 
 namespace {
 
-struct Box {
-  Vec3 low, high;
-};
-
-// Of passes over the cells, most of which are empty.
-
-// Cells of a uniform grid along each axis.
-struct CrossingGrid {
-  Vec3 low;
-  double per_cell = 0.0;
-  uint32_t size[3] = {1, 1, 1};
-};
-
-struct CellRange {
-  uint32_t low[3], high[3];
+// A place, and the side of a triangle's plane that it is on.
+struct SidedPoint {
+  const Vec3& at;
+  int side;
 };
 
 }  // namespace
@@ -78,13 +67,13 @@ static bool segment_meets_flat(const Vec3& p, const Vec3& q, const Vec3& a, cons
   return inside;
 }
 
-// Whether the closed segment has a point in the closed triangle, on whose sides its ends are.
-static bool segment_meets(const Vec3& p, int p_side, const Vec3& q, int q_side, const Vec3& a,
-                          const Vec3& b, const Vec3& c) {
-  if (p_side * q_side > 0) return false;
-  if (p_side == 0 && q_side == 0) return segment_meets_flat(p, q, a, b, c);
-  const int ab = sign_of(orient3d(p, q, a, b)), bc = sign_of(orient3d(p, q, b, c));
-  const int ca = sign_of(orient3d(p, q, c, a));
+// Whether the closed segment has a point in the closed triangle.
+static bool segment_meets(const SidedPoint& p, const SidedPoint& q, const Vec3& a, const Vec3& b,
+                          const Vec3& c) {
+  if (p.side * q.side > 0) return false;
+  if (p.side == 0 && q.side == 0) return segment_meets_flat(p.at, q.at, a, b, c);
+  const int ab = sign_of(orient3d(p.at, q.at, a, b)), bc = sign_of(orient3d(p.at, q.at, b, c));
+  const int ca = sign_of(orient3d(p.at, q.at, c, a));
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
@@ -101,9 +90,9 @@ static bool repeats_corner(const uint32_t* t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-// The sides of a triangle's plane that the corners of another are on; false where all are on one,
-// and the two have no point in common (T. Moeller, "A Fast Triangle-Triangle Intersection Test",
-// 1997).
+// The sides of a triangle's plane that the corners of another are on; false where all are off it on
+// one side, and the two have no point in common (T. Moeller, "A Fast Triangle-Triangle Intersection
+// Test", 1997).
 static bool reaches_plane(const Vec3* position, const uint32_t* triangle, const uint32_t* plane,
                           int* side) {
   const Vec3 &a = position[plane[0]], &b = position[plane[1]], &c = position[plane[2]];
@@ -117,8 +106,24 @@ static bool edges_meet(const Vec3* position, const uint32_t* edges, const int* s
   const Vec3 &a = position[triangle[0]], &b = position[triangle[1]], &c = position[triangle[2]];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t next = (k + 1) % 3;
-    const Vec3 &p = position[edges[k]], &q = position[edges[next]];
-    if (segment_meets(p, side[k], q, side[next], a, b, c)) return true;
+    const SidedPoint p = {position[edges[k]], side[k]}, q = {position[edges[next]], side[next]};
+    if (segment_meets(p, q, a, b, c)) return true;
+  }
+  return false;
+}
+
+// Of two triangles that share a corner, number at[i] of t[i]: whether the edge opposite to it in
+// one of them meets the other.
+static bool cross_beyond_corner(const Vec3* position, const uint32_t* const* t,
+                                const uint32_t* at) {
+  for (int k = 0; k < 2; ++k) {
+    const uint32_t *edge = t[k], *plane = t[1 - k];
+    const Vec3 &a = position[plane[0]], &b = position[plane[1]], &c = position[plane[2]];
+    const Vec3 &u = position[edge[(at[k] + 1) % 3]], &v = position[edge[(at[k] + 2) % 3]];
+    const SidedPoint p = {u, sign_of(orient3d(a, b, c, u))}, q = {v, sign_of(orient3d(a, b, c, v))};
+    // Then the whole triangle is on one side of the other's plane, but for the corner.
+    if (p.side * q.side > 0) return false;
+    if (segment_meets(p, q, a, b, c)) return true;
   }
   return false;
 }
@@ -143,15 +148,7 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
   if (shared == 1) {
     const uint32_t* const t[2] = {a, b};
     const uint32_t at[2] = {at_a, at_b};
-    for (int k = 0; k < 2; ++k) {
-      const Vec3 &u = p[t[k][(at[k] + 1) % 3]], &v = p[t[k][(at[k] + 2) % 3]];
-      const Vec3 &d = p[t[1 - k][0]], &e = p[t[1 - k][1]], &f = p[t[1 - k][2]];
-      const int u_side = sign_of(orient3d(d, e, f, u)), v_side = sign_of(orient3d(d, e, f, v));
-      // On one side of the other's plane, but for the corner that they share.
-      if (u_side * v_side > 0) return false;
-      if (segment_meets(u, u_side, v, v_side, d, e, f)) return true;
-    }
-    return false;
+    return cross_beyond_corner(p, t, at);
   }
   int side_of_a[3], side_of_b[3];
   if (!reaches_plane(p, a, b, side_of_a) || !reaches_plane(p, b, a, side_of_b)) return false;
@@ -159,6 +156,25 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
 }
 
 // ---- All triangles ------------------------------------------------------------------------------
+
+namespace {
+
+struct Box {
+  Vec3 low, high;
+};
+
+// Cells of a uniform grid along each axis.
+struct CrossingGrid {
+  Vec3 low;
+  double per_cell = 0.0;
+  uint32_t size[3] = {1, 1, 1};
+};
+
+struct CellRange {
+  uint32_t low[3], high[3];
+};
+
+}  // namespace
 
 static Box box_of(Span<const Vec3> position, const uint32_t* t) {
   Box box = {position[t[0]], position[t[0]]};
@@ -234,64 +250,96 @@ static Status choose_grid(Context& context, Span<const Vec3> position,
   return {};
 }
 
-// Turns the counts of cells into their starts.
-static Status start_cells(Context& context, Span<uint32_t> start) {
+namespace {
+
+// The triangles at each cell, by number.
+struct TriangleCells {
+  Span<const Vec3> position;
+  Span<const uint32_t> triangle;
+  CrossingGrid grid;
+  Array<uint32_t> start, item;  // of cell c: item[start[c] .. start[c + 1])
+  Array<uint32_t> met;          // of each triangle: for which other it was met last
+  Pace pace;
+
+  TriangleCells(Context& context, Span<const Vec3> at, Span<const uint32_t> triangles)
+      : position(at),
+        triangle(triangles),
+        start(context),
+        item(context),
+        met(context),
+        pace(context) {}
+
+  uint32_t count() const { return static_cast<uint32_t>(triangle.size() / 3); }
+  const uint32_t* corners(uint32_t t) const { return &triangle[3 * size_t{t}]; }
+  Box box(uint32_t t) const { return box_of(position, corners(t)); }
+  CellRange range(uint32_t t) const { return cells_of(grid, box(t)); }
+};
+
+}  // namespace
+
+// Counts the triangles at each cell, then lists them. Most cells are empty, and a pass over them
+// takes next to no time for each.
+static Status fill_cells(Context& context, TriangleCells* cells) {
+  Array<uint32_t>&start = cells->start, &item = cells->item;
+  const CrossingGrid& grid = cells->grid;
+  TRY(assign_in_parts(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0, &start));
+  for (uint32_t t = 0; t < cells->count(); ++t) {
+    TRY(each_cell(grid, cells->range(t), &cells->pace, [&](uint32_t cell) { ++start[cell]; }));
+  }
   uint32_t sum = 0;
-  return in_parts<k_light_steps_per_checkpoint>(context, start.size(), [&](size_t i) {
+  TRY(in_parts<k_light_steps_per_checkpoint>(context, start.size(), [&](size_t i) {
     const uint32_t count = start[i];
     start[i] = sum;
     sum += count;
+  }));
+  TRY(item.resize(sum));
+  TRY(context.checkpoint());
+  for (uint32_t t = 0; t < cells->count(); ++t) {
+    const auto add = [&](uint32_t cell) { item[start[cell]++] = t; };
+    TRY(each_cell(grid, cells->range(t), &cells->pace, add));
+  }
+  shift_starts_back(start.span());
+  return context.checkpoint();
+}
+
+// The triangles before t whose boxes meet its own, each once.
+static Status gather_near(uint32_t t, TriangleCells* cells, Array<uint32_t>* near) {
+  constexpr size_t k_items_of_step = 4;
+  const Box box = cells->box(t);
+  near->clear();
+  return each_cell(cells->grid, cells_of(cells->grid, box), &cells->pace, [&](uint32_t cell) {
+    const uint32_t first = cells->start[cell], end = cells->start[cell + 1];
+    cells->pace.add((end - first) / k_items_of_step);  // triangles that lie close: many in some
+    for (uint32_t i = first; i < end; ++i) {
+      const uint32_t other = cells->item[i];
+      if (other >= t || cells->met[other] == t) continue;
+      cells->met[other] = t;
+      if (!apart(box, cells->box(other))) near->push_reserved(other);
+    }
   });
 }
 
 Status find_crossings(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                       size_t most, Array<uint32_t>* pairs) {
-  constexpr size_t k_steps_of_pair = 4, k_items_of_step = 4;
+  constexpr size_t k_steps_of_pair = 4;
   pairs->clear();
   if (triangle.empty()) return {};
-  const uint32_t count = static_cast<uint32_t>(triangle.size() / 3);
-  CrossingGrid grid;
-  Array<uint32_t> start(context), item(context), met(context);
-  TRY(choose_grid(context, position, triangle, &grid));
-  TRY(assign_in_parts(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0, &start));
-  TRY(assign_in_parts(count, k_none, &met));
-  const auto range_of = [&](uint32_t t) {
-    return cells_of(grid, box_of(position, &triangle[3 * size_t{t}]));
-  };
-  Pace pace(context);
-  for (uint32_t t = 0; t < count; ++t) {
-    TRY(each_cell(grid, range_of(t), &pace, [&](uint32_t cell) { ++start[cell]; }));
-  }
-  TRY(start_cells(context, start.span()));
-  TRY(item.resize(start.back()));
-  TRY(context.checkpoint());
-  for (uint32_t t = 0; t < count; ++t) {
-    TRY(each_cell(grid, range_of(t), &pace, [&](uint32_t cell) { item[start[cell]++] = t; }));
-  }
-  shift_starts_back(start.span());
-  TRY(context.checkpoint());
+  TriangleCells cells(context, position, triangle);
+  const uint32_t count = cells.count();
+  Array<uint32_t> near(context);
+  TRY(choose_grid(context, position, triangle, &cells.grid));
+  TRY(fill_cells(context, &cells));
+  TRY(assign_in_parts(count, k_none, &cells.met));
+  TRY(near.reserve(count));
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
-    const Box box = box_of(position, &triangle[3 * size_t{t}]);
-    Array<uint32_t>& found = *pairs;
-    Status status;
-    TRY(each_cell(grid, cells_of(grid, box), &pace, [&](uint32_t cell) {
-      // Triangles that lie close are many in some cells.
-      pace.add((start[cell + 1] - start[cell]) / k_items_of_step);
-      for (uint32_t i = start[cell]; i < start[cell + 1]; ++i) {
-        const uint32_t other = item[i];
-        if (other >= t || met[other] == t) continue;
-        met[other] = t;
-        const uint32_t* const corners = &triangle[3 * size_t{other}];
-        if (apart(box, box_of(position, corners))) continue;
-        if (status.ok()) status = pace.after(k_steps_of_pair);
-        if (!status.ok()) return;
-        if (!triangles_cross(position, corners, &triangle[3 * size_t{t}])) continue;
-        if (status.ok()) status = found.push(other);
-        if (status.ok()) status = found.push(t);
-      }
-    }));
-    TRY(status);
+    TRY(gather_near(t, &cells, &near));
+    for (const uint32_t other : near) {
+      TRY(cells.pace.after(k_steps_of_pair));
+      if (!triangles_cross(position, cells.corners(other), cells.corners(t))) continue;
+      TRY(pairs->push(other));
+      TRY(pairs->push(t));
+    }
   }
   return {};
 }

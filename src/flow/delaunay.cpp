@@ -127,9 +127,10 @@ static Status take_slots(DelaunayBuilder* b) {
     return fail(Code::too_large, "the Delaunay triangulation has more tetrahedra than allowed");
   }
   TRY(make_room_in_parts(missing, &b->tets));
+  TRY(make_room_in_parts(missing, &b->mark));
   for (size_t i = 0; i < missing; ++i) {
     b->tets.push_reserved({});
-    TRY(b->mark.push(k_unseen));
+    b->mark.push_reserved(k_unseen);
   }
   for (size_t i = 0; i < b->outline.size(); ++i) {
     if (i < missing) {
@@ -298,7 +299,6 @@ static Status check_coordinates(Span<const Vec3> points) {
 
 Status triangulate(Context& context, Span<const Vec3> points, uint32_t most_tets,
                    Delaunay* delaunay) {
-  constexpr size_t k_work_per_checkpoint = 4096;
   TRY(check_coordinates(points));
   delaunay->tets.clear();
   Array<uint32_t> order(context);
@@ -314,13 +314,10 @@ Status triangulate(Context& context, Span<const Vec3> points, uint32_t most_tets
   TRY(b.tets.reserve(8 * order.size()));
   TRY(b.mark.reserve(8 * order.size()));
   TRY(begin_with_simplex(&b));
-  size_t work = 0;
+  Pace pace(context);
   for (uint32_t vertex = 4; vertex < order.size(); ++vertex) {
     TRY(insert_point(&b, vertex));
-    work += b.cavity.size() + b.outline.size();
-    if (work < k_work_per_checkpoint) continue;
-    work = 0;
-    TRY(context.checkpoint());
+    TRY(pace.after(b.cavity.size() + b.outline.size()));
   }
   return finish(context, &b, order.span(), delaunay);
 }

@@ -1,5 +1,7 @@
 #include "flow/patch_loops.h"
 
+#include "base/search.h"
+
 namespace wireskin::flow {
 
 Status start_loops(const Complex& complex, PatchLoops* loops) {
@@ -67,12 +69,8 @@ static LoopRun segment_step(const Complex& complex, const CurveEdges& curves,
   // The arc is the one whose range holds the place; segments of one arc come in a row.
   uint32_t arc = arc_hint;
   if (arc == k_none || i < samples.start[arc] || i >= samples.start[arc + 1]) {
-    uint32_t low = 0, high = static_cast<uint32_t>(samples.start.size() - 1);
-    while (low + 1 < high) {
-      const uint32_t middle = low + (high - low) / 2;
-      (samples.start[middle] <= i ? low : high) = middle;
-    }
-    arc = low;
+    const uint32_t arcs = static_cast<uint32_t>(samples.start.size() - 1);
+    arc = last_holding(0u, arcs, [&](uint32_t a) { return samples.start[a] <= i; });
   }
   const bool forward = complex.same_as[samples.at[i]] == u;
   return forward ? LoopRun{arc, i, i + 1} : LoopRun{arc, i + 1, i};

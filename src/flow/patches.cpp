@@ -274,6 +274,7 @@ static Status own_rest(const Complex& complex, const CurveEdges& curves, const S
 Status cut_patches(Context& context, const Complex& complex, const CurveEdges& curves,
                    const Samples& samples, const FlatCells& cells, const Persistence& persistence,
                    const Topology3& topology, Patches* patches) {
+  constexpr size_t k_steps_of_patch = 16;
   Classes classes(context);
   Border border(context);
   PatchLoops loops(context);
@@ -301,8 +302,7 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
         patches->triangle.span().part(first, patches->triangle.size() - first);
     TRY(add_patch(complex, curves, samples, side.span(), part, &loops, patches));
     TRY(patches->start.push(static_cast<uint32_t>(patches->triangle.size())));
-    if (c % 256 == 0) TRY(context.checkpoint());
-    TRY(pace.after(part.size()));
+    TRY(pace.after(k_steps_of_patch + part.size()));
   }
   return own_rest(complex, curves, topology.walls, &patches->owner);
 }

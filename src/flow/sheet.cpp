@@ -1,7 +1,5 @@
 #include "flow/sheet.h"
 
-#include "base/in_parts.h"
-
 namespace wireskin::flow {
 
 Status start_sheet(const Complex& complex, Sheet* sheet) {
@@ -53,12 +51,8 @@ void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t 
 // Until nothing is loose or, if wished, a curve has lost its last triangle.
 static Status drain_loose(const Complex& complex, const CurveEdges& curves, Protect protect,
                           bool until_bared, Sheet* sheet) {
-  constexpr size_t k_work_per_checkpoint = 1u << 13;
   while (!sheet->loose.empty() && !(until_bared && sheet->bared)) {
-    if (++sheet->work >= k_work_per_checkpoint) {
-      sheet->work = 0;
-      TRY(sheet->loose.context().checkpoint());
-    }
+    TRY(sheet->pace.after());
     const uint32_t e = sheet->loose.back();
     sheet->loose.pop();
     if (sheet->degree[e] != 1) continue;
@@ -74,10 +68,8 @@ Status peel_after(const Complex& complex, const CurveEdges& curves, Protect prot
   return drain_loose(complex, curves, protect, false, sheet);
 }
 
-Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet,
-                         bool* done) {
+Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet) {
   TRY(drain_loose(complex, curves, Protect::curves, true, sheet));
-  *done = !sheet->bared;
   if (sheet->bared) undo_removal(complex, sheet);
   return {};
 }

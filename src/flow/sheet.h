@@ -6,6 +6,7 @@
 // from 3D Curves", 2014, section 3.
 #pragma once
 
+#include "base/in_parts.h"
 #include "flow/curve_edges.h"
 
 namespace wireskin::flow {
@@ -17,10 +18,10 @@ struct Sheet {
   Array<uint32_t> loose;
   Array<uint32_t> removed;
   bool bared = false;  // the last removal took the last triangle from a curve
-  size_t work = 0;     // loose edges looked at since the last checkpoint
+  Pace pace;           // of peeling: most removals are small, and many
 
   explicit Sheet(Context& context)
-      : in(context), degree(context), loose(context), removed(context) {}
+      : in(context), degree(context), loose(context), removed(context), pace(context) {}
 };
 
 enum class Protect { nothing, curves };
@@ -39,9 +40,8 @@ void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t 
                      Sheet* sheet);
 Status peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
 // Likewise, the curves protected; where one would lose its last triangle, takes the whole removal
-// back at once: then *done is false.
-Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet,
-                         bool* done);
+// back at once: then `removed` is empty.
+Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet);
 void undo_removal(const Complex& complex, Sheet* sheet);
 
 // The triangles that can be reached from one without crossing a curve, a chord, or an edge whose

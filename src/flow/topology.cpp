@@ -145,9 +145,9 @@ struct Choice {
 enum class Verdict : uint8_t { wanted, accepted, unbounded, gone };
 
 // Whether the creator's wall holds, together with those chosen before.
-static Status try_void(Context& context, const Complex& complex, const CurveEdges& curves,
-                       const FlatCells& cells, uint32_t creator, uint32_t stamp, VoidTrial* trial,
-                       Verdict* verdict) {
+static Status try_void(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
+                       uint32_t creator, uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
+  Context& context = trial->mark.context();
   TRY(copy_sheet(trial->all, &trial->peeled));
   TRY(context.checkpoint());
   add_to_sheet(complex, creator, &trial->peeled);
@@ -187,7 +187,7 @@ static Status try_voids(Context& context, const Complex& complex, const CurveEdg
     if (worth_it && tries < k_most_tries) {
       ++tries;
       TRY(context.checkpoint());
-      TRY(try_void(context, complex, curves, cells, v.creator, i, &trial, &verdict));
+      TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
     }
     if (verdict == Verdict::unbounded) TRY(unbounded->push(i));
     if (verdict != Verdict::wanted && (verdict != Verdict::accepted || !high)) continue;
@@ -275,8 +275,7 @@ static Status open_handles(Context& context, const Complex& complex, const Curve
     if (finless.in[t] == 0) continue;
     begin_removal(&walls);
     remove_triangle(complex, curves, t, &walls);
-    bool done = false;
-    TRY(peel_unless_bared(complex, curves, &walls, &done));
+    TRY(peel_unless_bared(complex, curves, &walls));
     begin_removal(&finless);
     for (const uint32_t gone : walls.removed) remove_triangle(complex, curves, gone, &finless);
     TRY(peel_after(complex, curves, Protect::nothing, &finless));
@@ -342,8 +341,7 @@ static Status remove_open_walls(Context& context, const Complex& complex, const 
     if (whole && has_open_border(complex, curves, walls, wall.span())) {
       begin_removal(&walls);
       for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
-      bool done = false;
-      TRY(peel_unless_bared(complex, curves, &walls, &done));
+      TRY(peel_unless_bared(complex, curves, &walls));
     }
     for (const uint32_t t : wall) settled[t] = Settled::yes;
     TRY(pace.after(wall.size()));

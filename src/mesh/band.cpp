@@ -1,5 +1,6 @@
 #include "mesh/band.h"
 
+#include "base/search.h"
 #include "num/minmax.h"
 
 namespace wireskin::mesh {
@@ -55,11 +56,8 @@ static double fraction(double share) {
 
 static WalkPlace place_at(const Walk& walk, double share) {
   const double at = fraction(share);
-  size_t low = 0, high = walk.share.size();
-  while (high - low > 1) {
-    const size_t middle = low + (high - low) / 2;
-    (walk.share[middle] <= at ? low : high) = middle;
-  }
+  const size_t low =
+      last_holding(size_t{0}, walk.share.size(), [&](size_t i) { return walk.share[i] <= at; });
   const size_t next = low + 1 < walk.share.size() ? low + 1 : 0;
   const double end = next == 0 ? 1.0 : walk.share[next];
   const double t = end > walk.share[low] ? (at - walk.share[low]) / (end - walk.share[low]) : 0.0;
@@ -154,11 +152,9 @@ static double matched(Span<const Match> matches, double share, bool from_b) {
   double at = share;
   while (at < first) at += 1.0;
   while (at >= first + 1.0) at -= 1.0;
-  size_t low = 0, high = matches.size() - 1;
-  while (high - low > 1) {
-    const size_t middle = low + (high - low) / 2;
-    ((from_b ? matches[middle].b : matches[middle].a) <= at ? low : high) = middle;
-  }
+  const size_t low = last_holding(size_t{0}, matches.size() - 1, [&](size_t i) {
+    return (from_b ? matches[i].b : matches[i].a) <= at;
+  });
   const Match &m = matches[low], &n = matches[low + 1];
   const double begin = from_b ? m.b : m.a, end = from_b ? n.b : n.a;
   const double t = end > begin ? (at - begin) / (end - begin) : 0.0;

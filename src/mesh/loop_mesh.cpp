@@ -1,5 +1,6 @@
 #include "mesh/loop_mesh.h"
 
+#include "base/search.h"
 #include "base/sort.h"
 #include "mesh/loop_refine.h"
 #include "mesh/mesh.h"
@@ -136,12 +137,7 @@ struct Bridge {
 }  // namespace
 
 static uint32_t loop_of(const Loops& loops, uint32_t v) {
-  uint32_t low = 0, high = loops.count();
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    (loops.start[middle] <= v ? low : high) = middle;
-  }
-  return low;
+  return last_holding(0u, loops.count(), [&](uint32_t k) { return loops.start[k] <= v; });
 }
 
 static Bridge find_bridge(const Loops& loops, Span<const uint32_t> polygon,

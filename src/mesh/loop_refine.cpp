@@ -1,5 +1,7 @@
 #include "mesh/loop_refine.h"
 
+#include "base/in_parts.h"
+#include "base/search.h"
 #include "base/sort.h"
 #include "mesh/curvature.h"
 #include "num/minmax.h"
@@ -7,6 +9,7 @@
 namespace wireskin::mesh {
 
 static constexpr double k_grading = 0.25;
+static constexpr size_t k_steps_of_edge = 2;  // and of a star
 // Edges above the first share of the wished size are split, unless the midpoint would come nearer
 // than the second share to an opposite vertex.
 static constexpr double k_long_edge = 1.35;
@@ -34,7 +37,7 @@ struct LoopRefinement {
   Span<const uint32_t> name;  // of the held points; empty: all are different
   Array<uint8_t> copied;      // of the held points: another has the same name
   bool may_relax = true;
-  size_t work = 0;  // edges and stars looked at since the last checkpoint
+  Pace pace;  // edges and stars that are looked at
 
   LoopRefinement(Context& context, Span<const uint32_t> loops, double wished, Array<Vec3>* points,
                  Array<uint32_t>* triangles)
@@ -46,7 +49,8 @@ struct LoopRefinement {
         size(context),
         twins(context),
         suspect(context),
-        copied(context) {}
+        copied(context),
+        pace(context) {}
 
   uint32_t origin(uint32_t h) const { return (*triangle)[h]; }
   uint32_t head(uint32_t h) const { return (*triangle)[next_half_edge(h)]; }
@@ -75,17 +79,11 @@ struct Stars {
 static bool is_held(const LoopRefinement& r, uint32_t u, uint32_t v) {
   if (u >= r.rim || v >= r.rim || r.edge.empty()) return false;
   const uint32_t a = u < v ? u : v, b = u < v ? v : u;
-  size_t low = 0, high = r.edge.size() / 2;
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    const uint32_t* e = &r.edge[2 * middle];
-    if (e[0] < a || (e[0] == a && e[1] < b)) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return 2 * low < r.edge.size() && r.edge[2 * low] == a && r.edge[2 * low + 1] == b;
+  const size_t i = first_failing(size_t{0}, r.edge.size() / 2, [&](size_t k) {
+    const uint32_t* e = &r.edge[2 * k];
+    return e[0] < a || (e[0] == a && e[1] < b);
+  });
+  return 2 * i < r.edge.size() && r.edge[2 * i] == a && r.edge[2 * i + 1] == b;
 }
 
 static Diamond diamond_at(const LoopRefinement& r, uint32_t h) {
@@ -128,13 +126,6 @@ static bool meets_and_steps(const LoopRefinement& r, uint32_t name, StarWalk* wa
   walk->done = across == k_none;
   if (!walk->done) walk->at = next_half_edge(across);
   return false;
-}
-
-static Status pause_refining(LoopRefinement* r) {
-  constexpr size_t k_work_per_checkpoint = 2048;
-  if (++r->work < k_work_per_checkpoint) return {};
-  r->work = 0;
-  return r->suspect.context().checkpoint();
 }
 
 static bool is_copied(const LoopRefinement& r, uint32_t v) {
@@ -208,7 +199,7 @@ static Status flip_suspects(LoopRefinement* r) {
   while (!r->suspect.empty()) {
     const uint32_t h = r->suspect.back();
     r->suspect.pop();
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
     if (flips_left == 0 || !improves_by_flip(*r, h)) continue;
     TRY(flip_diamond(r, h));
     --flips_left;
@@ -281,7 +272,7 @@ static Status split_longer(LoopRefinement* r, double level, size_t* splits) {
   *splits = 0;
   for (uint32_t h = 0; h < r->twins.size(); ++h) {
     if (r->position->size() >= r->most_points) break;
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
     if (!(excess(*r, h) > level)) continue;
     TRY(split_diamond(r, h));
     TRY(flip_suspects(r));
@@ -325,7 +316,7 @@ static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
     const Vec3 step = centre_of(*r, star) - r->at(v);
     const Vec3 target = r->at(v) + (within_plane ? reject(step, stars->normal[v]) : step);
     if (may_move(*r, star, target)) (*r->position)[v] = target;
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
   }
   return {};
 }
@@ -341,7 +332,7 @@ static Status grade_sizes(LoopRefinement* r, const Stars& stars) {
       most = smaller(most, r->size[u] + reach);
     }
     r->size[v] = least > most ? 0.5 * (least + most) : smaller(larger(r->spacing, least), most);
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
   }
   return {};
 }
@@ -433,7 +424,7 @@ static Status refine_all(LoopRefinement* r) {
   TRY(flip_everywhere(r));
   double level = 0.0;
   for (uint32_t h = 0; h < r->twins.size(); ++h) {
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
     level = larger(level, excess(*r, h));
   }
   size_t splits = 0;

@@ -194,16 +194,17 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
   found.at_a = point_of_place(wires, edges.curve[a], found.a);
   found.at_b = point_of_place(wires, edges.curve[b], found.b);
   found.distance = length(found.at_a - found.at_b);
-  // Drawings have less than one for a sample, with every line drawn many times a few; but all lines
-  // of a lattice cross.
-  constexpr uint64_t k_most_for_a_sample = 16;
-  const uint64_t pairs_of_curves = uint64_t{wires.curves()} * wires.curves() / 2;
-  if (approaches->size() > k_most_for_a_sample * wires.samples() + pairs_of_curves) {
-    return fail(Code::bad_argument,
-                "the curves come within the snapping tolerance of each other in too many places: "
-                "give a smaller one");
-  }
   return approaches->push(found);
+}
+
+// Drawings have less than one for a sample, with every line drawn many times a few. All lines of a
+// lattice cross, however few their samples; but thousands of curves that all come near each other
+// are a tangle.
+static size_t most_approaches(const Wires& wires) {
+  constexpr uint64_t k_most_for_a_sample = 16, k_most_of_a_lattice = 1u << 18;
+  const uint64_t pairs = uint64_t{wires.curves()} * wires.curves() / 2;
+  return static_cast<size_t>(k_most_for_a_sample * wires.samples() +
+                             (pairs < k_most_of_a_lattice ? pairs : k_most_of_a_lattice));
 }
 
 // Rounding must not part boxes of edges that just reach each other.
@@ -222,7 +223,7 @@ static Box box_of_edge(const Vec3& p, const Vec3& q, double margin) {
 
 Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double reach,
                        Array<Approach>* approaches) {
-  constexpr size_t k_work_per_checkpoint = 4096;
+  constexpr size_t k_steps_of_search = 8;
   Context& context = wires.position.context();
   const EdgeSet edges = {wires, curve};
   Array<double> bulge(context);
@@ -241,15 +242,19 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
     sample.push_reserved(i);
   }));
   TRY(tree.build(box.span()));
-  size_t work = 0;
+  const size_t most = most_approaches(wires);
+  Pace pace(context);
   for (uint32_t e = 0; e < box.size(); ++e) {
     TRY(tree.find(box[e], e, &near));
-    work += 8;
+    TRY(pace.after(k_steps_of_search));
     for (const uint32_t other : near) {
       TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
-      if (++work < k_work_per_checkpoint) continue;
-      work = 0;
-      TRY(context.checkpoint());
+      TRY(pace.after());
+    }
+    if (approaches->size() > most) {
+      return fail(Code::bad_argument,
+                  "the curves come within the snapping tolerance of each other in too many places: "
+                  "give a smaller one");
     }
   }
   return {};

@@ -5,7 +5,7 @@
 // compared as straight lines, and the places then refined on local cubics, because between coarse
 // samples curves that meet pass each other's chords at the height of the arc. O(n log n) for n
 // samples, and the pairs of edges whose boxes meet; fails with bad_argument where more places are
-// within reach than there are pairs of curves and 16 times as many as samples.
+// within reach than 16 for each sample and one for each pair of curves, of these at most 262144.
 #pragma once
 
 #include "network/wires.h"

@@ -1,5 +1,7 @@
 #include "network/beads.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::network {
 
 Status Beads::string_samples(size_t joints) {
@@ -11,7 +13,8 @@ Status Beads::string_samples(size_t joints) {
   TRY(sets.reset(static_cast<uint32_t>(room)));
   PointMembers members(context());
   TRY(list_members(wires, &members));
-  for (uint32_t i = 0; i < n; ++i) {
+  TRY(in_parts(context(), n, [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s);
     Bead sample;
     sample.position = wires.position[i];
     sample.edge = i;
@@ -20,9 +23,11 @@ Status Beads::string_samples(size_t joints) {
     if (sample.next != k_none) sample.to_next = edge_length(i);
     sample.given = wires.point[i];
     bead.push_reserved(sample);
-  }
+  }));
+  Pace pace(context());
   for (uint32_t p = 0; p < wires.points; ++p) {
     const Span<const uint32_t> own = members[p];
+    TRY(pace.after(own.size()));
     for (size_t k = 0; k < own.size(); ++k) {
       bead[own[k]].ring = own[(k + 1) % own.size()];
       bead[own[k]].joined = own.size() > 1;
@@ -154,12 +159,14 @@ void Beads::unite(uint32_t a, uint32_t b) {
   touched[sets.find(a)] = 1;
 }
 
-void Beads::unite_close(double reach) {
+Status Beads::unite_close(double reach) {
+  Pace pace(context());
   for (uint32_t c = 0; c < wires.curves(); ++c) {
     const uint32_t first = wires.start[c];
     uint32_t last = k_none, b = first;
     double away = 0.0;
     do {
+      TRY(pace.after());
       if (bead[b].ring != b) {
         const bool near = last != k_none && away <= reach;
         if (near && (touched[sets.find(last)] || touched[sets.find(b)])) unite(last, b);
@@ -170,6 +177,7 @@ void Beads::unite_close(double reach) {
       b = bead[b].next;
     } while (b != k_none && b != first);
   }
+  return {};
 }
 
 }  // namespace wireskin::network

@@ -76,7 +76,7 @@ struct Beads {
   void unite(uint32_t a, uint32_t b);
   // Makes points one that are no farther apart along a curve than `reach`, where something came to
   // one of them, as where many curves meet in about one point.
-  void unite_close(double reach);
+  Status unite_close(double reach);
 };
 
 }  // namespace wireskin::network

@@ -1,5 +1,6 @@
 #include "network/box_tree.h"
 
+#include "base/in_parts.h"
 #include "base/select.h"
 #include "num/minmax.h"
 
@@ -48,20 +49,21 @@ static void extend(const Box& more, Box* box) {
                larger(box->high.z, high.z)};
 }
 
-Box BoxTree::bound(uint32_t first, uint32_t count) const {
-  Box box = boxes_[order_[first]];
-  for (uint32_t i = 1; i < count; ++i) extend(boxes_[order_[first + i]], &box);
-  return box;
+Status BoxTree::bound(uint32_t first, uint32_t count, Box* box) const {
+  *box = boxes_[order_[first]];
+  return in_parts(order_.context(), count,
+                  [&](size_t i) { extend(boxes_[order_[first + i]], box); });
 }
 
-// Equal places by index.
+// Moves the half of lesser centres, along the axis in which they spread most, to the front; equal
+// ones are told apart by index.
 Status BoxTree::halve(uint32_t first, uint32_t count) {
   Vec3 low = twice_centre(boxes_[order_[first]]), high = low;
-  for (uint32_t i = first; i < first + count; ++i) {
-    const Vec3 c = twice_centre(boxes_[order_[i]]);
+  TRY(in_parts(order_.context(), count, [&](size_t i) {
+    const Vec3 c = twice_centre(boxes_[order_[first + i]]);
     low = {smaller(low.x, c.x), smaller(low.y, c.y), smaller(low.z, c.z)};
     high = {larger(high.x, c.x), larger(high.y, c.y), larger(high.z, c.z)};
-  }
+  }));
   const Vec3 spread = high - low;
   const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
   const auto before = [&](uint32_t a, uint32_t b) {
@@ -85,7 +87,7 @@ Status BoxTree::build(Span<const Box> boxes) {
   size_t work = 0;
   while (todo.size > 0) {
     const TreeRange range = todo.pop();
-    node_[range.node] = bound(range.first, range.count);
+    TRY(bound(range.first, range.count, &node_[range.node]));
     if (range.is_leaf()) continue;
     TRY(halve(range.first, range.count));
     todo.push(range.upper());

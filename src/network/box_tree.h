@@ -26,7 +26,7 @@ class BoxTree {
   Status find(const Box& box, uint32_t after, Array<uint32_t>* found) const;
 
  private:
-  Box bound(uint32_t first, uint32_t count) const;
+  Status bound(uint32_t first, uint32_t count, Box* box) const;
   Status halve(uint32_t first, uint32_t count);
 
   Span<const Box> boxes_;

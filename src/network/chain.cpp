@@ -1,5 +1,6 @@
 #include "network/chain.h"
 
+#include "base/in_parts.h"
 #include "num/trig.h"
 
 namespace wireskin::network {
@@ -74,7 +75,9 @@ static Status link_ends(const Wires& wires, Chaining chaining, double corner,
   TRY(curve_of_samples(wires, &curve));
   TRY(partner->assign(size_t{2} * wires.curves(), k_none));
   TRY(cut.assign(size_t{2} * wires.curves(), 0));
+  Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
+    TRY(pace.after());
     const Span<const uint32_t> own = members[p];
     if (own.size() != 2) continue;
     const uint32_t c = curve[own[0]], d = curve[own[1]];
@@ -148,6 +151,7 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
   TRY(used.assign(wires->curves(), 0));
   TRY(reserve_wires(wires->curves(), wires->samples(), !wires->right.empty(), &result));
   result.start.push_reserved(0);
+  Pace pace(context);
   for (uint32_t c = 0; c < wires->curves(); ++c) {
     if (used[c]) continue;
     // Back to where the chain begins, or once round.
@@ -162,10 +166,10 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
       if (used[end / 2]) break;
       used[end / 2] = 1;
       append_piece(*wires, end, joined, &result);
+      TRY(pace.after(wires->size(end / 2)));
       joined = true;
     }
     finish_curve(*wires, c, closed || wires->closed[c], closed, &result);
-    if ((c + 1) % (1u << 14) == 0) TRY(context.checkpoint());
   }
   result.points = wires->points;
   *wires = static_cast<Wires&&>(result);

@@ -1,5 +1,7 @@
 #include "network/connect.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::network {
 
 // Samples that the caller gave one number lie at one place, or near enough to be snapped.
@@ -9,7 +11,9 @@ static Status check_numbers(const Wires& wires, double tolerance) {
   PointMembers members(context);
   TRY(list_members(wires, &members));
   const double limit = tolerance > k_same_place ? tolerance : k_same_place;
+  Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
+    TRY(pace.after(members[p].size()));
     for (uint32_t i : members[p]) {
       if (length(wires.position[i] - wires.position[members[p][0]]) <= limit) continue;
       Place place;
@@ -29,13 +33,12 @@ static Status find_new_points(const Wires& wires, Array<uint8_t>* joined) {
   TRY(joined->assign(wires.points, 0));
   Array<uint8_t> seen(wires.position.context());
   TRY(seen.assign(wires.points, 0));
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
+  return in_parts(wires.position.context(), wires.samples(), [&](size_t i) {
     const uint32_t p = wires.point[i];
     if (seen[p] && (number[p] != wires.number[i] || number[p] == k_none)) (*joined)[p] = 1;
     number[p] = wires.number[i];
     seen[p] = 1;
-  }
-  return {};
+  });
 }
 
 static Status complete_normals(const ConnectOptions& options, Wires* wires, ConnectResult* result) {

@@ -1,5 +1,6 @@
 #include "network/enclosure.h"
 
+#include "base/search.h"
 #include "base/sort.h"
 
 namespace wireskin::network {
@@ -128,18 +129,12 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
     if (clockwise && !network.ring[p]) continue;
     TRY(draw_outline(&outline));
     const double reach = 2.0 * outline.widest + outline.highest;
-    size_t low = 0, high = count;
-    while (low < high) {
-      const size_t middle = low + (high - low) / 2;
-      if (place(order[middle]) < outline.plane.origin.x - reach) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
+    const double middle = outline.plane.origin.x;
+    size_t i = first_failing(size_t{0}, size_t{count},
+                             [&](size_t k) { return place(order[k]) < middle - reach; });
     const uint32_t own = components.of_vertex[border.vertex[0]];
-    for (; low < count && place(order[low]) <= outline.plane.origin.x + reach; ++low) {
-      const uint32_t c = order[low];
+    for (; i < count && place(order[i]) <= middle + reach; ++i) {
+      const uint32_t c = order[i];
       if (c != own) enclose(vertices, components, c, outline, p, &(*enclosing)[c]);
     }
     TRY(context.checkpoint());

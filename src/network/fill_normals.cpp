@@ -1,5 +1,6 @@
 #include "network/fill_normals.h"
 
+#include "base/in_parts.h"
 #include "num/trig.h"
 
 namespace wireskin::network {
@@ -73,7 +74,9 @@ static void fill_curve(uint32_t c, Span<Vec3> carried, Wires* wires) {
 Status fill_along(Wires* wires, FillCounts* counts) {
   Array<Vec3> carried(wires->position.context());
   TRY(carried.assign(wires->samples(), Vec3{}));
+  Pace pace(wires->position.context());
   for (uint32_t c = 0; c < wires->curves(); ++c) {
+    TRY(pace.after(wires->size(c)));
     const uint32_t known = count_known(*wires, c);
     if (wires->sharp[c] || known == 0 || known == wires->size(c)) continue;
     fill_curve(c, carried.span(), wires);
@@ -101,10 +104,12 @@ Status fill_from_nodes(Wires* wires, FillCounts* counts) {
   TRY(curve_of_samples(*wires, &curve));
   TRY(carried.assign(wires->samples(), Vec3{}));
   TRY(mean.resize(wires->points));
-  for (uint32_t p = 0; p < wires->points; ++p) {
-    mean[p] = mean_normal(*wires, curve.span(), members[p]);
-  }
+  TRY(in_parts(context, wires->points, [&](size_t p) {
+    mean[p] = mean_normal(*wires, curve.span(), members[static_cast<uint32_t>(p)]);
+  }));
+  Pace pace(context);
   for (uint32_t c = 0; c < wires->curves(); ++c) {
+    TRY(pace.after(wires->size(c)));
     if (wires->sharp[c] || count_known(*wires, c) != 0) continue;
     const uint32_t first = wires->start[c], end = wires->start[c + 1];
     for (uint32_t i = first; i < end; ++i) wires->normal[i] = mean[wires->point[i]];
@@ -129,8 +134,10 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
   Array<uint32_t> curve(context);
   TRY(list_members(*wires, &members));
   TRY(curve_of_samples(*wires, &curve));
+  Pace pace(context);
   for (uint32_t p = 0; p < wires->points; ++p) {
     const Span<const uint32_t> own = members[p];
+    TRY(pace.after(own.size()));
     if (own.size() < 2) continue;
     const Vec3 mean = mean_normal(*wires, curve.span(), own);
     bool unite = joined[p] && mean != Vec3{};

@@ -1,17 +1,14 @@
 #include "network/nodes.h"
 
+#include "base/search.h"
 #include "base/sort.h"
 #include "curves/opposed.h"
 
 namespace wireskin::network {
 
 static uint32_t curve_of_sample(const SampleNumbers& samples, uint32_t sample) {
-  uint32_t low = 0, high = static_cast<uint32_t>(samples.start.size()) - 1;
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    (samples.start[middle] <= sample ? low : high) = middle;
-  }
-  return low;
+  const uint32_t curves = static_cast<uint32_t>(samples.start.size()) - 1;
+  return last_holding(0u, curves, [&](uint32_t c) { return samples.start[c] <= sample; });
 }
 
 static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,

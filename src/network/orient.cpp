@@ -1,6 +1,7 @@
 #include "network/orient.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 #include "num/trig.h"
 
 namespace wireskin::network {
@@ -11,7 +12,9 @@ static bool is_known(const Vec3& normal) {
 
 Status orient_along(Wires* wires, Array<uint8_t>* turned, Array<Contradiction>* contradictions) {
   TRY(turned->assign(wires->samples(), 0));
+  Pace pace(turned->context());
   for (uint32_t c = 0; c < wires->curves(); ++c) {
+    TRY(pace.after(wires->size(c)));
     if (wires->sharp[c]) continue;
     uint32_t last = k_none, first = k_none;
     Vec3 carried;
@@ -90,9 +93,12 @@ struct Encounter {
 
 static Status list_encounters(const Wires& wires, Span<const uint32_t> curve,
                               Array<Encounter>* encounters) {
-  PointMembers members(wires.position.context());
+  Context& context = wires.position.context();
+  PointMembers members(context);
   TRY(list_members(wires, &members));
+  Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
+    TRY(pace.after(members[p].size()));
     uint32_t last = k_none;
     for (uint32_t i : members[p]) {
       if (!is_known(wires.normal[i]) || wires.sharp[curve[i]]) continue;
@@ -102,13 +108,35 @@ static Status list_encounters(const Wires& wires, Span<const uint32_t> curve,
       last = i;
     }
   }
-  sort(encounters->span(), [](const Encounter& x, const Encounter& y) {
+  return sort_in_parts(context, encounters->span(), [](const Encounter& x, const Encounter& y) {
     const double p = std::fabs(x.agreement), q = std::fabs(y.agreement);
     if (p != q) return p > q;
     return x.a != y.a ? x.a < y.a : x.b < y.b;
   });
+}
+
+// Each encounter says whether two curves are opposite, the clearest first.
+static Status relate_curves(const Wires& wires, Span<const uint32_t> curve, SignedSets* sets,
+                            Array<Contradiction>* contradictions) {
+  Array<Encounter> encounters(wires.position.context());
+  TRY(list_encounters(wires, curve, &encounters));
+  Pace pace(wires.position.context());
+  for (const Encounter& e : encounters) {
+    TRY(pace.after());
+    bool a = false, b = false;
+    const uint32_t x = sets->find(curve[e.a], &a), y = sets->find(curve[e.b], &b);
+    const bool differ = (e.agreement < 0.0) != (a != b);
+    if (x != y) {
+      sets->unite(x, y, differ);
+    } else if (differ) {
+      TRY(contradictions->push({wires.origin[e.a], wires.origin[e.b],
+                                angle_between(wires.normal[e.a], wires.normal[e.b])}));
+    }
+  }
   return {};
 }
+
+namespace {
 
 // What the samples of a component say about its sign.
 struct Vote {
@@ -116,58 +144,75 @@ struct Vote {
   uint32_t samples = 0;
   Vec3 sum;          // of positions
   double out = 0.0;  // how much normals point away from the middle
+
+  // Where neither sign has twice as many samples, that one wins which points away from the middle.
+  bool for_turning() const {
+    const bool undecided = kept < 2 * uint64_t{turned} && turned < 2 * uint64_t{kept};
+    return undecided ? out < 0.0 : kept < turned;
+  }
 };
 
-Status orient_across(Wires* wires, Span<uint8_t> turned, Array<Contradiction>* contradictions) {
-  Context& context = wires->position.context();
-  Array<uint32_t> curve(context);
-  Array<Encounter> encounters(context);
-  Array<Vote> votes(context);
-  SignedSets sets(context);
-  TRY(curve_of_samples(*wires, &curve));
-  TRY(list_encounters(*wires, curve.span(), &encounters));
-  TRY(sets.reset(wires->curves()));
-  TRY(votes.assign(wires->curves(), Vote{}));
-  for (const Encounter& e : encounters) {
-    bool a = false, b = false;
-    const uint32_t x = sets.find(curve[e.a], &a), y = sets.find(curve[e.b], &b);
-    const bool differ = (e.agreement < 0.0) != (a != b);
-    if (x != y) {
-      sets.unite(x, y, differ);
-    } else if (differ) {
-      TRY(contradictions->push({wires->origin[e.a], wires->origin[e.b],
-                                angle_between(wires->normal[e.a], wires->normal[e.b])}));
-    }
-  }
-  for (uint32_t i = 0; i < wires->samples(); ++i) {
-    bool opposite = false;
-    Vote& vote = votes[sets.find(curve[i], &opposite)];
-    vote.sum += wires->position[i];
-    ++vote.samples;
-    if (!is_known(wires->normal[i]) || wires->sharp[curve[i]]) continue;
-    if (opposite) {
-      wires->normal[i] = -wires->normal[i];
-      turned[i] ^= 1;
-    }
-    ++(turned[i] ? vote.turned : vote.kept);
-  }
-  for (uint32_t i = 0; i < wires->samples(); ++i) {
-    bool opposite = false;
-    Vote& vote = votes[sets.find(curve[i], &opposite)];
-    if (wires->sharp[curve[i]]) continue;
-    vote.out += dot(wires->position[i] - (1.0 / vote.samples) * vote.sum, wires->normal[i]);
-  }
-  for (uint32_t i = 0; i < wires->samples(); ++i) {
-    bool opposite = false;
-    const Vote& vote = votes[sets.find(curve[i], &opposite)];
-    if (!is_known(wires->normal[i]) || wires->sharp[curve[i]]) continue;
-    const bool undecided =
-        vote.kept < 2 * uint64_t{vote.turned} && vote.turned < 2 * uint64_t{vote.kept};
-    if (undecided ? !(vote.out < 0.0) : vote.kept >= vote.turned) continue;
+// Normals of components whose curves agree, and what their samples say.
+struct Election {
+  Wires* wires;
+  Span<uint8_t> turned;
+  Array<uint32_t> curve;  // of each sample
+  SignedSets sets;        // of curves
+  Array<Vote> votes;      // of the first curve of each set
+
+  Election(Wires* of, Span<uint8_t> before)
+      : wires(of),
+        turned(before),
+        curve(of->position.context()),
+        sets(of->position.context()),
+        votes(of->position.context()) {}
+
+  Vote& vote_of(uint32_t i, bool* opposite) { return votes[sets.find(curve[i], opposite)]; }
+  bool decides(uint32_t i) const { return is_known(wires->normal[i]) && !wires->sharp[curve[i]]; }
+  void turn(uint32_t i) {
     wires->normal[i] = -wires->normal[i];
     turned[i] ^= 1;
   }
-  return {};
+};
+
+}  // namespace
+
+// Gives all normals of a component the sign of its first curve, and counts what becomes of them.
+static Status count_votes(Election* e) {
+  Context& context = e->curve.context();
+  const Wires& wires = *e->wires;
+  TRY(in_parts(context, wires.samples(), [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s);
+    bool opposite = false;
+    Vote& vote = e->vote_of(i, &opposite);
+    vote.sum += wires.position[i];
+    ++vote.samples;
+    if (!e->decides(i)) return;
+    if (opposite) e->turn(i);
+    ++(e->turned[i] ? vote.turned : vote.kept);
+  }));
+  return in_parts(context, wires.samples(), [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s);
+    bool opposite = false;
+    Vote& vote = e->vote_of(i, &opposite);
+    if (wires.sharp[e->curve[i]]) return;
+    vote.out += dot(wires.position[i] - (1.0 / vote.samples) * vote.sum, wires.normal[i]);
+  });
+}
+
+Status orient_across(Wires* wires, Span<uint8_t> turned, Array<Contradiction>* contradictions) {
+  Election election(wires, turned);
+  TRY(curve_of_samples(*wires, &election.curve));
+  TRY(election.sets.reset(wires->curves()));
+  TRY(election.votes.assign(wires->curves(), Vote{}));
+  TRY(relate_curves(*wires, election.curve.span(), &election.sets, contradictions));
+  TRY(count_votes(&election));
+  return in_parts(election.curve.context(), wires->samples(), [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s);
+    bool opposite = false;
+    const Vote& vote = election.vote_of(i, &opposite);
+    if (election.decides(i) && vote.for_turning()) election.turn(i);
+  });
 }
 
 }  // namespace wireskin::network

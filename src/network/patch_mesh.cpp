@@ -1,6 +1,7 @@
 #include "network/patch_mesh.h"
 
 #include "base/in_parts.h"
+#include "base/search.h"
 #include "base/sort.h"
 #include "mesh/check.h"
 #include "mesh/inlay.h"
@@ -159,33 +160,13 @@ static Status take_domain(const Network& network, const CurveVertices& vertices,
 
 static bool find_edge(Span<const Chord> sorted, uint32_t a, uint32_t b) {
   const Chord edge = {a, b, k_none};
-  size_t low = 0, high = sorted.size();
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    if (before(sorted[middle], edge)) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < sorted.size() && sorted[low].a == a && sorted[low].b == b;
+  const size_t i =
+      first_failing(size_t{0}, sorted.size(), [&](size_t k) { return before(sorted[k], edge); });
+  return i < sorted.size() && sorted[i].a == a && sorted[i].b == b;
 }
 
 static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
   return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
-}
-
-// Room for `more` elements; grows as push() does, but what is moved may be long.
-template <typename T>
-static Status reserve_more(Array<T>* array, size_t more) {
-  const size_t room = array->capacity_bytes() / sizeof(T), needed = array->size() + more;
-  if (needed <= room) return {};
-  Array<T> grown(array->context());
-  TRY(grown.reserve(needed < room + room / 2 ? room + room / 2 : needed));
-  TRY(in_parts(array->context(), array->size(),
-               [&](size_t i) { grown.push_reserved((*array)[i]); }));
-  *array = static_cast<Array<T>&&>(grown);
-  return {};
 }
 
 // Notes the chords of triangle `t`, whose vertices among the patch's are `corner`, and its corners
@@ -212,11 +193,11 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   PatchMesh* mesh = builder->mesh;
   const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
   const size_t first = mesh->patch.size(), more = triangle.size() / 3;
-  TRY(reserve_more(&mesh->triangle, triangle.size()));
-  TRY(reserve_more(&mesh->patch, more));
-  TRY(reserve_more(&mesh->shape, more));
-  TRY(reserve_more(&mesh->start, scratch.inner.size()));
-  TRY(reserve_more(&mesh->placed, scratch.inner.size()));
+  TRY(make_room_in_parts(triangle.size(), &mesh->triangle));
+  TRY(make_room_in_parts(more, &mesh->patch));
+  TRY(make_room_in_parts(more, &mesh->shape));
+  TRY(make_room_in_parts(scratch.inner.size(), &mesh->start));
+  TRY(make_room_in_parts(scratch.inner.size(), &mesh->placed));
   for (size_t t = 0; t < more; ++t) {
     const uint32_t* corner = &triangle[3 * t];
     const auto global = [&](uint32_t v) {
@@ -461,13 +442,11 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
 }
 
 static TriangleCorners* corners_of(uint32_t triangle, Builder* builder) {
-  size_t first = 0, end = builder->cornered.size();
-  while (first + 1 < end) {
-    const size_t middle = first + (end - first) / 2;
-    (builder->cornered[middle].triangle <= triangle ? first : end) = middle;
-  }
-  WIRESKIN_ASSERT(first < end && builder->cornered[first].triangle == triangle);
-  return &builder->cornered[first];
+  const size_t i = last_holding(size_t{0}, builder->cornered.size(), [&](size_t k) {
+    return builder->cornered[k].triangle <= triangle;
+  });
+  WIRESKIN_ASSERT(builder->cornered[i].triangle == triangle);
+  return &builder->cornered[i];
 }
 
 static mesh::TriangleShape shape_of(const TriangleCorners& corners) {

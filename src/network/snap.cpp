@@ -1,6 +1,7 @@
 #include "network/snap.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 #include "network/snap_order.h"
 #include "network/write_beads.h"
 
@@ -205,10 +206,14 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
 Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
                          SnapResult* result) {
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
+  constexpr size_t k_steps_of_join = 512;  // it may pass all joints of an edge
+  Pace pace(context());
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
-      if (plan.pass[k] == now) TRY(join(approaches[k], plan.beside[k] != 0, result));
-      if (k % 64 == 63) TRY(context().checkpoint());
+      TRY(pace.after());
+      if (plan.pass[k] != now) continue;
+      TRY(join(approaches[k], plan.beside[k] != 0, result));
+      TRY(pace.after(k_steps_of_join));
     }
   }
   return {};
@@ -223,19 +228,20 @@ Status Snapper::count_open(Span<const Approach> approaches, Span<const uint8_t> 
   DisjointSets joined(context());
   Array<Pair> pairs(context());
   TRY(joined.reset(wires().curves()));
-  for (uint32_t b = 0; b < beads_.bead.size(); ++b) {
+  TRY(in_parts(context(), beads_.bead.size(), [&](size_t i) {
+    const uint32_t b = static_cast<uint32_t>(i);
     joined.unite(beads_.curve_of(b), beads_.curve_of(beads_.bead[b].ring));
-  }
+  }));
   TRY(pairs.reserve(approaches.size()));
-  for (size_t k = 0; k < approaches.size(); ++k) {
+  TRY(in_parts(context(), approaches.size(), [&](size_t k) {
     const Approach& approach = approaches[k];
-    if (beside[k]) continue;
+    if (beside[k]) return;
     const uint32_t a = joined.find(beads_.curve[approach.a.edge]);
     const uint32_t b = joined.find(beads_.curve[approach.b.edge]);
     if (a != b) pairs.push_reserved(a < b ? Pair{a, b} : Pair{b, a});
-  }
+  }));
   const auto less = [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; };
-  sort(pairs.span(), less);
+  TRY(sort_in_parts(context(), pairs.span(), less));
   *open = 0;
   for (size_t k = 0; k < pairs.size(); ++k) *open += k == 0 || less(pairs[k - 1], pairs[k]);
   return {};
@@ -249,12 +255,13 @@ Status Snapper::run(SnapResult* result) {
   complete_ = counts.dangling == 0 && counts.components == 1;
   const double reach = (complete_ ? k_crossing_in_complete : 1.0) * tolerance_;
   TRY(find_approaches(wires(), beads_.curve.span(), reach, &approaches));
-  sort(approaches.span(), [](const Approach& p, const Approach& q) {
+  const auto nearer = [](const Approach& p, const Approach& q) {
     if (p.distance != q.distance) return p.distance < q.distance;
     if (p.a.edge != q.a.edge) return p.a.edge < q.a.edge;
     if (p.b.edge != q.b.edge) return p.b.edge < q.b.edge;
     return p.a.part != q.a.part ? p.a.part < q.a.part : p.b.part < q.b.part;
-  });
+  };
+  TRY(sort_in_parts(context(), approaches.span(), nearer));
   TRY(beads_.string_samples(approaches.size()));
   TRY(best_.assign(beads_.room(), 0.0));
   TRY(stamp_.assign(beads_.room(), 0));
@@ -263,7 +270,7 @@ Status Snapper::run(SnapResult* result) {
   TRY(count_open(approaches.span(), plan.beside.span(), &result->open_before));
   exact_ = plan.exact;
   TRY(join_all(approaches.span(), plan, result));
-  beads_.unite_close(k_one_node * tolerance_);
+  TRY(beads_.unite_close(k_one_node * tolerance_));
   return count_open(approaches.span(), plan.beside.span(), &result->open_after);
 }
 

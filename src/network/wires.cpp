@@ -1,6 +1,7 @@
 #include "network/wires.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 
 namespace wireskin::network {
 
@@ -55,65 +56,68 @@ static bool lies_before(const Vec3& a, const Vec3& b) {
   return a.z < b.z;
 }
 
-// Unites samples whose caller's numbers agree; `order` is scratch.
-static void weld_numbers(const Wires& wires, Array<uint32_t>* order, DisjointSets* sets) {
-  order->clear();
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    if (wires.number[i] != k_none) order->push_reserved(i);
-  }
+Status unite_numbers(const Wires& wires, DisjointSets* sets) {
+  Context& context = wires.position.context();
+  Array<uint32_t> order(context);
+  TRY(order.reserve(wires.samples()));
+  TRY(in_parts(context, wires.samples(), [&](size_t i) {
+    if (wires.number[i] != k_none) order.push_reserved(static_cast<uint32_t>(i));
+  }));
   const Span<const uint32_t> number = wires.number.span();
-  sort(order->span(), [number](uint32_t a, uint32_t b) {
+  TRY(sort_in_parts(context, order.span(), [number](uint32_t a, uint32_t b) {
     return number[a] != number[b] ? number[a] < number[b] : a < b;
+  }));
+  return in_parts(context, order.size(), [&](size_t k) {
+    if (k > 0 && number[order[k]] == number[order[k - 1]]) sets->unite(order[k], order[k - 1]);
   });
-  for (size_t k = 1; k < order->size(); ++k) {
-    if (number[(*order)[k]] == number[(*order)[k - 1]]) sets->unite((*order)[k], (*order)[k - 1]);
-  }
 }
 
 // Unites samples at the same place.
-static void weld_places(const Wires& wires, Array<uint32_t>* order, DisjointSets* sets) {
-  order->clear();
-  for (uint32_t i = 0; i < wires.samples(); ++i) order->push_reserved(i);
+static Status unite_places(const Wires& wires, DisjointSets* sets) {
+  Context& context = wires.position.context();
+  Array<uint32_t> order(context);
+  TRY(order.resize(wires.samples()));
+  for (uint32_t i = 0; i < wires.samples(); ++i) order[i] = i;
   const Span<const Vec3> position = wires.position.span();
-  sort(order->span(), [position](uint32_t a, uint32_t b) {
+  TRY(sort_in_parts(context, order.span(), [position](uint32_t a, uint32_t b) {
     if (position[a] != position[b]) return lies_before(position[a], position[b]);
     return a < b;
+  }));
+  return in_parts(context, order.size(), [&](size_t k) {
+    if (k > 0 && position[order[k]] == position[order[k - 1]]) sets->unite(order[k], order[k - 1]);
   });
-  for (size_t k = 1; k < order->size(); ++k) {
-    const uint32_t a = (*order)[k - 1], b = (*order)[k];
-    if (position[a] == position[b]) sets->unite(a, b);
-  }
+}
+
+Status number_points(DisjointSets* sets, Wires* wires) {
+  Context& context = wires->position.context();
+  Array<uint32_t> name(context);
+  TRY(name.assign(wires->samples(), k_none));
+  TRY(wires->point.resize(wires->samples()));
+  wires->points = 0;
+  return in_parts(context, wires->samples(), [&](size_t i) {
+    const uint32_t root = sets->find(static_cast<uint32_t>(i));  // the least: it has its name
+    if (name[root] == k_none) name[root] = wires->points++;
+    wires->point[i] = name[root];
+  });
 }
 
 Status weld(Wires* wires) {
-  Context& context = wires->position.context();
-  Array<uint32_t> order(context), name(context);
-  DisjointSets sets(context);
-  const uint32_t n = wires->samples();
-  TRY(order.reserve(n));
-  TRY(name.assign(n, k_none));
-  TRY(sets.reset(n));
-  TRY(wires->point.resize(n));
-  weld_numbers(*wires, &order, &sets);
-  TRY(context.checkpoint());
-  weld_places(*wires, &order, &sets);
-  wires->points = 0;
-  for (uint32_t i = 0; i < n; ++i) {
-    const uint32_t root = sets.find(i);  // the least, so it has its name already
-    if (name[root] == k_none) name[root] = wires->points++;
-    wires->point[i] = name[root];
-  }
-  return {};
+  DisjointSets sets(wires->position.context());
+  TRY(sets.reset(wires->samples()));
+  TRY(unite_numbers(*wires, &sets));
+  TRY(unite_places(*wires, &sets));
+  return number_points(&sets, wires);
 }
 
 Status list_members(const Wires& wires, PointMembers* members) {
   TRY(members->first.assign(wires.points + size_t{1}, 0));
   TRY(members->member.resize(wires.samples()));
-  for (uint32_t p : wires.point) ++members->first[p];
+  Context& context = wires.position.context();
+  TRY(in_parts(context, wires.samples(), [&](size_t i) { ++members->first[wires.point[i]]; }));
   starts_from_counts(members->first.span());
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    members->member[members->first[wires.point[i]]++] = i;
-  }
+  TRY(in_parts(context, wires.samples(), [&](size_t i) {
+    members->member[members->first[wires.point[i]]++] = static_cast<uint32_t>(i);
+  }));
   shift_starts_back(members->first.span());
   return {};
 }
@@ -128,8 +132,10 @@ Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* c
   TRY(sets.reset(wires.curves()));
   TRY(component->assign(wires.curves(), k_none));
   *counts = {wires.curves(), wires.samples(), 0, 0, 0};
+  Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
     const Span<const uint32_t> own = members[p];
+    TRY(pace.after(own.size()));
     if (own.size() > 1) ++counts->nodes;
     if (own.size() == 1 && wires.is_end(curve[own[0]], own[0])) ++counts->dangling;
     for (uint32_t i : own) sets.unite(curve[own[0]], curve[i]);
@@ -143,15 +149,18 @@ Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* c
 }
 
 Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance) {
-  Array<double> lengths(wires.position.context());
+  Context& context = wires.position.context();
+  Array<double> lengths(context);
   TRY(lengths.reserve(wires.samples()));
+  Pace pace(context);
   for (uint32_t c = 0; c < wires.curves(); ++c) {
+    TRY(pace.after(wires.size(c)));
     for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
       const uint32_t j = wires.next(c, i);
       if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
     }
   }
-  sort(lengths.span(), [](double a, double b) { return a < b; });
+  TRY(sort_in_parts(context, lengths.span(), [](double a, double b) { return a < b; }));
   const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
   *tolerance = median < 0.01 * diagonal ? median : 0.01 * diagonal;
   return {};

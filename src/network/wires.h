@@ -99,6 +99,11 @@ Status reserve_wires(uint32_t curves, uint32_t samples, bool sharp, Wires* wires
 // same place. O(s log s).
 Status weld(Wires* wires);
 
+// The steps of it: unites the samples whose caller's numbers agree; numbers the points that united
+// samples are.
+Status unite_numbers(const Wires& wires, DisjointSets* sets);
+Status number_points(DisjointSets* sets, Wires* wires);
+
 // The samples of each point: those of point p are member[first[p] .. first[p + 1]), ascending.
 struct PointMembers {
   Array<uint32_t> first, member;

@@ -1,5 +1,6 @@
 #include "network/write_beads.h"
 
+#include "base/in_parts.h"
 #include "network/bend.h"
 
 namespace wireskin::network {
@@ -39,6 +40,7 @@ static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8
   TRY(order.reserve(beads.bead.size()));
   TRY(pins.reserve(beads.bead.size()));
   TRY(shift.reserve(beads.bead.size()));
+  Pace pace(beads.context());
   for (uint32_t c = 0; c < beads.wires.curves(); ++c) {
     arc.clear(), order.clear(), pins.clear(), shift.clear();
     double length = 0.0;
@@ -52,6 +54,7 @@ static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8
       moves = moves || displacement[b] != Vec3{};
       length += beads.bead[b].to_next;
     }
+    TRY(pace.after(order.size()));
     if (!moves) continue;
     bend_curve({arc.span(), length, beads.wires.closed[c] != 0, pins.span(), shift.span()});
     for (size_t k = 0; k < order.size(); ++k) displacement[order[k]] = shift[k];
@@ -111,15 +114,16 @@ static Status find_moves(Beads* beads, BeadMoves* moves) {
   TRY(moves->target.resize(n));
   TRY(moves->pinned.assign(n, 0));
   TRY(seen.assign(beads->wires.points + size_t{n}, k_none));
-  for (uint32_t b = 0; b < n; ++b) {
+  TRY(in_parts(beads->context(), n, [&](size_t i) {
+    const uint32_t b = static_cast<uint32_t>(i);
     const Bead& bead = beads->bead[b];
     const uint32_t root = beads->sets.find(b);
     moves->target[b] = bead.position;
     moves->pinned[b] = bead.ring != b;
-    if (!beads->touched[root]) continue;
+    if (!beads->touched[root]) return;
     moves->target[b] = root == b ? target_of(*beads, root, seen.span(), root) : moves->target[root];
     moves->displacement[b] = moves->target[b] - bead.position;
-  }
+  }));
   return bend_beads(*beads, moves->displacement.span(), moves->pinned.span());
 }
 
@@ -154,8 +158,10 @@ Status write_beads(double detour, Beads* beads, Wires* out) {
   TRY(reserve_wires(wires.curves(), n, !wires.right.empty(), out));
   out->start.push_reserved(0);
   out->points = 0;
+  Pace pace(beads->context());
   for (uint32_t c = 0; c < wires.curves(); ++c) {
     list_beads(c, detour, beads, &order, &arc);
+    TRY(pace.after(order.size()));
     for (const uint32_t b : order) {
       const uint32_t root = beads->sets.find(b);
       if (name[root] == k_none) name[root] = out->points++;

@@ -1,5 +1,6 @@
 #include "surface/verify.h"
 
+#include "base/search.h"
 #include "base/sort.h"
 #include "mesh/check.h"
 
@@ -19,12 +20,9 @@ static uint64_t key_of_edge(uint32_t a, uint32_t b) {
 }
 
 static bool holds_key(Span<const uint64_t> sorted, uint64_t key) {
-  size_t low = 0, high = sorted.size();
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    (sorted[middle] < key ? low : high) = sorted[middle] < key ? middle + 1 : middle;
-  }
-  return low < sorted.size() && sorted[low] == key;
+  const size_t i =
+      first_failing(size_t{0}, sorted.size(), [&](size_t k) { return sorted[k] < key; });
+  return i < sorted.size() && sorted[i] == key;
 }
 
 // Patches with a node that their border passes twice, like an eight.

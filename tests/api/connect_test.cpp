@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <random>
 
 #include "support/faulty_allocator.h"
 #include "support/scenes.h"
@@ -287,6 +288,26 @@ TEST_CASE("a tolerance that brings all near all is refused") {
   CHECK(std::string(run.report.sentence).find("too many places") != std::string::npos);
   run.snap = 0.01;
   CHECK(run(scenes::curves_of(scene)) == WSK_OK);
+}
+
+TEST_CASE(
+    "a tangle of thousands of lines is refused at once, though each pair comes near once only") {
+  std::mt19937 random(1);
+  const auto uniform = [&random] { return random() / 4294967296.0; };
+  Scene scene;
+  for (int line = 0; line < 5000; ++line) {
+    Curve curve;
+    double from[3];
+    for (double& x : from) x = uniform();
+    curve.positions.assign(from, from + 3);
+    for (const double x : from) curve.positions.push_back(x + 0.9 * (uniform() - 0.5));
+    curve.nodes.assign(2, WSK_NONE);
+    scene.curves.push_back(curve);
+  }
+  Run run;
+  run.snap = 0.17;
+  CHECK(run(scenes::curves_of(scene)) == WSK_ERROR_BAD_ARGUMENT);
+  CHECK(std::string(run.report.sentence).find("too many places") != std::string::npos);
 }
 
 TEST_CASE("degenerate curves are passed on, whatever they are") {

@@ -1,6 +1,6 @@
-# Who can link the library (ARCHIVE, as it ships; WASM_OBJECT, of golden/cross/wasm): C programs by tcc, gcc in strict C89 and musl (mingw:
-# golden/cross.cmake); a WebAssembly module that imports nothing; and how large it is for a Cortex-M4.
-# Toolchains that are not here are skipped by name.
+# Who can link the library (ARCHIVE, as it ships): C programs by tcc, gcc in strict C89 and musl (mingw:
+# golden/cross.cmake); a WebAssembly module that imports nothing (of WASM_OBJECT, which golden/cross/wasm
+# makes); and how large it is for a Cortex-M4. Toolchains that are not here are skipped by name.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/tests/embed/start.cmake)
 set(user ${ROOT}/tests/embed/c89_user.c)

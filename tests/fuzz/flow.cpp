@@ -32,7 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     for (int round = 0; round < 2; ++round) {
       limits.checkpoints = 0;
       wsk_surface* surface = nullptr;
-      fuzz::check_outcome(wsk_flow_surface(flow, &options, &how, &surface, nullptr), surface, true);
+      const wsk_status status = wsk_flow_surface(flow, &options, &how, &surface, nullptr);
+      fuzz::check_outcome(status, surface, true);
       how.voids = 1;
     }
   }

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <string>
@@ -49,7 +50,7 @@ struct Pace {
   }
 };
 
-std::vector<double> stretches_of(const Scene& scene, wsk_method method, std::string* size) {
+std::vector<double> stretches_of_build(const Scene& scene, wsk_method method, std::string* size) {
   wsk_options options = scenes::options_of(scene);
   Pace pace;
   options.method = method;
@@ -61,26 +62,52 @@ std::vector<double> stretches_of(const Scene& scene, wsk_method method, std::str
   Pace::ask(&pace);  // what comes after the last checkpoint
   wsk_surface_view view;
   wsk_surface_get_view(surface, &view, sizeof view);
-  *size = std::to_string(view.vertex_count);
+  *size = std::to_string(view.vertex_count) + " vertices";
   wsk_surface_free(surface);
   return pace.stretches;
 }
 
-void check_pace(const Scene& scene, wsk_method method) {
+std::vector<double> stretches_of_connecting(const Scene& scene, std::string* size) {
+  wsk_options options;
+  wsk_options_init(&options, sizeof options);
+  Pace pace;
+  pace.install(&options);
+  wsk_connect_options how;
+  wsk_connect_options_init(&how, sizeof how);
+  how.options = &options;
+  const std::vector<wsk_curve> curves = scenes::curves_of(scene);
+  wsk_network* network = nullptr;
+  REQUIRE(wsk_connect(curves.data(), curves.size(), &how, &network, nullptr) == WSK_OK);
+  Pace::ask(&pace);
+  wsk_network_view view;
+  wsk_network_get_view(network, &view, sizeof view);
+  *size = std::to_string(view.sample_count) + " samples";
+  wsk_network_free(network);
+  return pace.stretches;
+}
+
+// Stretches(&size): the stretches of one run.
+template <typename Stretches>
+void check_least(const std::string& name, const Stretches& stretches) {
   std::string size;
-  std::vector<double> least = stretches_of(scene, method, &size);
+  std::vector<double> least = stretches(&size);
   for (int run = 1; run < 4; ++run) {
     if (*std::max_element(least.begin(), least.end()) < 0.5 * k_bound) break;
-    const std::vector<double> again = stretches_of(scene, method, &size);
+    const std::vector<double> again = stretches(&size);
     REQUIRE(again.size() == least.size());
     for (size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], again[i]);
   }
   const auto worst = std::max_element(least.begin(), least.end());
-  const std::string what = scene.name + ", " + scenes::name_of_method(method) + ", " + size +
-                           " vertices, stretch " + std::to_string(worst - least.begin()) + " of " +
+  const std::string what = name + ", " + size + ", stretch " +
+                           std::to_string(worst - least.begin()) + " of " +
                            std::to_string(least.size());
   CAPTURE(what);
   CHECK(*worst < k_bound);
+}
+
+void check_pace(const Scene& scene, wsk_method method) {
+  check_least(scene.name + ", " + scenes::name_of_method(method),
+              [&](std::string* size) { return stretches_of_build(scene, method, size); });
 }
 
 }  // namespace
@@ -100,4 +127,20 @@ TEST_CASE("a checkpoint is never far: a hundred thousand vertices") {
     scene.spacing /= 13.0;
     check_pace(scene, method);
   }
+}
+
+TEST_CASE("a checkpoint is never far: raw curves of half a million samples that cross each other") {
+  constexpr int k_curves = 200, k_samples = 2500;
+  Scene scene;
+  for (int c = 0; c < k_curves; ++c) {
+    scenes::Curve curve;
+    for (int i = 0; i < k_samples; ++i) {
+      double x = (i + 0.37) / k_samples, y = (c / 2 + 0.53) / (k_curves / 2);
+      if (c % 2 != 0) std::swap(x, y);
+      curve.positions.insert(curve.positions.end(), {x, y, 0.2 * std::sqrt(1.0 + x * y)});
+      curve.nodes.push_back(WSK_NONE);
+    }
+    scene.curves.push_back(curve);
+  }
+  check_least("lattice", [&](std::string* size) { return stretches_of_connecting(scene, size); });
 }

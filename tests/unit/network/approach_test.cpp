@@ -116,3 +116,13 @@ TEST_CASE("random segments against brute force") {
     CHECK(approaches_of(net, reach).size() == expected);
   }
 }
+
+TEST_CASE("curves that are all alone leave the caller no longer without a question") {
+  WireNet net;
+  constexpr uint32_t k_curves = 20000;
+  for (uint32_t c = 0; c < k_curves; ++c) net.add(line({2.0 * c, 0, 0}, {2.0 * c + 1.0, 0, 0}, 1));
+  net.heap.checkpoints = 0;
+  CHECK(approaches_of(net, 0.01).empty());
+  // One for 4096 samples of each pass over them, one for 512 edges that are compared with others.
+  CHECK(net.heap.checkpoints >= 2 * k_curves / 4096 + k_curves / 512);
+}

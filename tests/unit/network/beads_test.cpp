@@ -74,11 +74,11 @@ TEST_CASE("new nodes next to each other on a curve become one, old ones do not")
   net.add(line({1, 0, 0}, {1, 2, 0}, 2));
   net.add(line({2, 0, 0}, {2, 2, 0}, 2));
   net.string(2);
-  net.beads.unite_close(1.5);
+  must(net.beads.unite_close(1.5));
   CHECK(net.beads.sets.find(1) != net.beads.sets.find(2));
   net.beads.unite(3, 10);  // the far end of the last curve
-  net.beads.unite_close(0.5);
+  must(net.beads.unite_close(0.5));
   CHECK(net.beads.sets.find(2) != net.beads.sets.find(3));
-  net.beads.unite_close(1.5);
+  must(net.beads.unite_close(1.5));
   CHECK(net.beads.sets.find(2) == net.beads.sets.find(3));
 }
