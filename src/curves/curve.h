@@ -77,6 +77,9 @@ struct CurvePoint {
 // arc[first] <= s <= arc[last].
 CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s);
 
+// Finding it takes a microsecond or two, as long as so many steps of a usual pass.
+inline constexpr size_t k_steps_of_point = 8;
+
 // The direction of the curve at a knot (not unit).
 Vec3 tangent_at_knot(const Curve& curve, uint32_t knot);
 

@@ -81,7 +81,7 @@ static Status place_vertices(const curves::Curves& curves, const Network& networ
   const double length = curve.arc[segment.last_knot] - from;
   const uint32_t edges = vertices->edges[s];
   for (uint32_t k = 0; k <= edges; ++k) {
-    TRY(pace->after());
+    TRY(pace->after(curves::k_steps_of_point));
     const uint32_t v = segment_vertex(network, *vertices, s, k);
     if (vertices->curve[v] > segment.curve) vertices->curve[v] = segment.curve;
     if (segment.from != k_none && (k == 0 || k == edges)) continue;  // nodes are there already

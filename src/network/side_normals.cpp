@@ -18,7 +18,7 @@ static Status fill_side(const curves::Curve& curve, const Segment& segment, Pace
     return {};
   }
   for (size_t k = 1; k < edges; ++k) {
-    TRY(pace->after());
+    TRY(pace->after(curves::k_steps_of_point));
     const double part = static_cast<double>(k) / static_cast<double>(edges);
     side[k] = point_at(curve, segment.first_knot, segment.last_knot, from + part * length).normal;
     if (dot(side[k], side[k]) > 0.5) continue;

@@ -198,9 +198,9 @@ Status refine(Triangulation* t, Array<double>* sizes, double spacing, size_t mos
     if (is_front(*t, h) || is_front(*t, h + 1) || is_front(*t, h + 2)) TRY(queue_triangle(&r, i));
   }
   const uint64_t most_work = t->work + k_most_work * most_vertices;
-  for (size_t step = 0; r.head < r.queue.size() && t->points.size() < most_vertices; ++step) {
+  while (r.head < r.queue.size() && t->points.size() < most_vertices) {
     if (t->work > most_work) break;
-    if (step % 4096 == 0) TRY(t->points.context().checkpoint());
+    TRY(pace.after(3));  // its edges
     TRY(refine_triangle(&r, pop_triangle(&r)));
   }
   return {};

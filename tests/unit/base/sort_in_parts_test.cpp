@@ -40,7 +40,7 @@ TEST_CASE("sort in parts: in order whatever the input, and a caller is asked by 
   }
   for (const auto& keys : {shuffled, ascending, descending, equal, pipe}) {
     const size_t asked = check_sort(keys);
-    CHECK(asked >= n / wireskin::k_steps_per_checkpoint);
+    CHECK(asked >= n / 8192);  // however short a part is, bad pivots end the asking
     CHECK(asked < 8 * n / wireskin::k_steps_per_checkpoint);
   }
 }
