@@ -575,7 +575,8 @@ typedef struct wsk_connect_options {
   /* How far apart, in your units, curves may be that are meant to meet. Negative: only what
      coincides is joined. 0 (the default): the median distance of neighbouring samples, at most a
      hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused, and
-     what brings more places near each other than 16 for each sample and one for each two curves. */
+     what brings more places near each other than 16 for each sample and one for each pair of
+     curves, of pairs at most 262144. */
   double snap;
   wsk_chain chain;
   /* A turn by more than this is a corner: curves are not chained through it. 0 (the default): 60
@@ -981,6 +982,8 @@ WSK_API const char* wsk_version_string(void);
 #undef WIRESKIN_INLINE
 #pragma push_macro("WIRESKIN_LANES")
 #undef WIRESKIN_LANES
+#pragma push_macro("WIRESKIN_STEPS_PER_CHECKPOINT")
+#undef WIRESKIN_STEPS_PER_CHECKPOINT
 #pragma push_macro("WIRESKIN_TARGET")
 #undef WIRESKIN_TARGET
 #pragma push_macro("WIRESKIN_UNROLL")
@@ -1668,11 +1671,17 @@ Status explain_rounding(const Status& status, Span<const Vec3> positions, double
 /* that take next to no time. Short passes have none, so that small calls are not slowed down; the */
 /* stage that makes many of them has its own. */
 /* */
-/* Pace is the same for loops whose steps can fail or take unequal work: these say what they did. */
+/* Pace is for loops whose steps can fail or are of unequal work: they say how many steps they made, */
+/* and the checkpoint comes with the 4096th. */
 
 namespace wireskin {
 
-inline constexpr size_t k_steps_per_checkpoint = 4096;
+/* Set shorter in builds that count what tests reach, so that small scenes pass the checkpoints of */
+/* large ones; no result depends on it. */
+#ifndef WIRESKIN_STEPS_PER_CHECKPOINT
+#define WIRESKIN_STEPS_PER_CHECKPOINT 4096
+#endif
+inline constexpr size_t k_steps_per_checkpoint = WIRESKIN_STEPS_PER_CHECKPOINT;
 
 template <size_t k_part = k_steps_per_checkpoint, class Body>
 Status in_parts(Context& context, size_t count, const Body& body) {
@@ -1685,14 +1694,29 @@ Status in_parts(Context& context, size_t count, const Body& body) {
   return {};
 }
 
+/* For steps that take next to no time, as those that only fill or copy: most of what these cost is */
+/* that the system brings fresh memory. */
+inline constexpr size_t k_light_steps_per_checkpoint = 16 * k_steps_per_checkpoint;
+
+/* The array alone says what T is. */
 template <typename T>
-Status copy_in_parts(const Array<T>& source, Array<T>* target) {
-  TRY(target->resize(source.size()));
-  return in_parts(target->context(), source.size(), [&](size_t i) { (*target)[i] = source[i]; });
+Status assign_in_parts(size_t size, const std::enable_if_t<true, T>& value, Array<T>* array) {
+  const T kept = value;  /* it may live in the memory that resize() gives back */
+  TRY(array->resize(size));
+  return in_parts<k_light_steps_per_checkpoint>(array->context(), size,
+                                                [&](size_t i) { (*array)[i] = kept; });
 }
 
-/* Room for so many elements more. Growing by a half at least, as push() does, but for arrays so */
-/* large that it takes its time. */
+/* `source`: an array or a span. */
+template <typename Source, typename T>
+Status copy_in_parts(const Source& source, Array<T>* target) {
+  TRY(target->resize(source.size()));
+  return in_parts<k_light_steps_per_checkpoint>(target->context(), source.size(),
+                                                [&](size_t i) { (*target)[i] = source[i]; });
+}
+
+/* Room for so many elements more, growing by a half at least, as push() does; for arrays so large */
+/* that to move them takes its time. */
 template <typename T>
 Status make_room_in_parts(size_t more, Array<T>* array) {
   const size_t room = array->capacity_bytes() / sizeof(T), size = array->size();
@@ -1706,20 +1730,22 @@ Status make_room_in_parts(size_t more, Array<T>* array) {
 
 class Pace {
  public:
-  explicit Pace(Context& context) : context_(context) {}
+  explicit Pace(Context& context, size_t steps_per_checkpoint = k_steps_per_checkpoint)
+      : context_(context), most_(steps_per_checkpoint) {}
 
   /* Counts only; for places that have no status to return. */
   void add(size_t steps) { steps_ += steps; }
 
   Status after(size_t steps = 1) {
     steps_ += steps;
-    if (steps_ < k_steps_per_checkpoint) return {};
+    if (steps_ < most_) return {};
     steps_ = 0;
     return context_.checkpoint();
   }
 
  private:
   Context& context_;
+  size_t most_;
   size_t steps_ = 0;
 };
 
@@ -1817,7 +1843,7 @@ class Ldl {
   /* is `not_positive_definite`, place.vertex its column. */
   Status factor(const Csc& lower);
 
-  /* x := A^-1 x, an n x columns block stored row by row. */
+  /* x := A^-1 x, an n x columns block stored row by row. Cancelled it may have written part of x. */
   Status solve(Span<double> x, uint32_t columns);
 
   /* The diagonal of A^-1. */
@@ -2590,7 +2616,7 @@ class Cholesky {
   /* Gives back what only another factor() would need; the next one begins with analyse(). */
   void end_factoring();
 
-  /* x := A^-1 x, an n x columns block stored row by row. */
+  /* x := A^-1 x, an n x columns block stored row by row. Cancelled it may have written part of x. */
   Status solve(Span<double> x, uint32_t columns);
 
   /* Entries of the factor, without the zeros that the panels add. */
@@ -3672,10 +3698,10 @@ struct Sheet {
   Array<uint32_t> loose;
   Array<uint32_t> removed;
   bool bared = false;  /* the last removal took the last triangle from a curve */
-  size_t work = 0;     /* loose edges looked at since the last checkpoint */
+  Pace pace;           /* of peeling: most removals are small, and many */
 
   explicit Sheet(Context& context)
-      : in(context), degree(context), loose(context), removed(context) {}
+      : in(context), degree(context), loose(context), removed(context), pace(context) {}
 };
 
 enum class Protect { nothing, curves };
@@ -3694,9 +3720,8 @@ void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t 
                      Sheet* sheet);
 Status peel_after(const Complex& complex, const CurveEdges& curves, Protect protect, Sheet* sheet);
 /* Likewise, the curves protected; where one would lose its last triangle, takes the whole removal */
-/* back at once: then *done is false. */
-Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet,
-                         bool* done);
+/* back at once: then `removed` is empty. */
+Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet);
 void undo_removal(const Complex& complex, Sheet* sheet);
 
 /* The triangles that can be reached from one without crossing a curve, a chord, or an edge whose */
@@ -4141,6 +4166,11 @@ Status reserve_wires(uint32_t curves, uint32_t samples, bool sharp, Wires* wires
 /* same place. O(s log s). */
 Status weld(Wires* wires);
 
+/* The steps of it: unites the samples whose caller's numbers agree; numbers the points that united */
+/* samples are. */
+Status unite_numbers(const Wires& wires, DisjointSets* sets);
+Status number_points(DisjointSets* sets, Wires* wires);
+
 /* The samples of each point: those of point p are member[first[p] .. first[p + 1]), ascending. */
 struct PointMembers {
   Array<uint32_t> first, member;
@@ -4265,7 +4295,7 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
 /* compared as straight lines, and the places then refined on local cubics, because between coarse */
 /* samples curves that meet pass each other's chords at the height of the arc. O(n log n) for n */
 /* samples, and the pairs of edges whose boxes meet; fails with bad_argument where more places are */
-/* within reach than there are pairs of curves and 16 times as many as samples. */
+/* within reach than 16 for each sample and one for each pair of curves, of these at most 262144. */
 
 namespace wireskin::network {
 
@@ -4417,6 +4447,64 @@ Status read_sensor_curves(const wsk_sensor_curve* curves, size_t count, SensorCu
 }  /* namespace wireskin::api */
 /* ======== end src/api/raw_curves.h ======== */
 
+/* ======== begin src/network/integrate.h ======== */
+/* Positions from arc lengths and tangents: what a sensor that knows its direction, but not its */
+/* place, measures along the curves of a network. */
+/* */
+/* In: curves whose samples have points (network/wires.h), arc length and unit tangent; a closed */
+/* curve repeats its first sample. Out: positions such that the sum over all steps of */
+/* |step - step of the circular arc with these tangents|^2 / length is least, the first sample of */
+/* every component being the origin: a Laplacian over the points, so samples of one point coincide */
+/* exactly. Cost: one sparse factorisation, whose fill stays small because most points have two */
+/* neighbours. */
+/* */
+/* Source: T. Stanko, S. Hahmann, G.-P. Bonneau, N. Saguin-Sprynski, "Shape from sensors: Curve */
+/* networks on surfaces from 3D orientations", 2017. */
+
+namespace wireskin::network {
+
+struct SensorSamples {
+  Span<const uint32_t> start;  /* curve c has the samples start[c] .. start[c + 1) */
+  Span<const uint32_t> point;  /* of each sample */
+  uint32_t points = 0;
+  Span<const double> arc;    /* ascending along each curve */
+  Span<const Vec3> tangent;  /* unit */
+  /* Of each curve: its tangents are the directions to the next samples, not those at the samples. */
+  Span<const uint8_t> to_next;
+};
+
+/* `residual`: the root mean square of the steps' misfit, per sample. */
+Status integrate_tangents(Context& context, const SensorSamples& samples, Span<Vec3> position,
+                          double* residual);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/integrate.h ======== */
+
+/* ======== begin src/num/trig.h ======== */
+/* Own trigonometry, because that of the C libraries differs in the last bits between targets. */
+/* */
+/* A table of the angles of k / 8 by the subtraction formula, then the Taylor series of the */
+/* arctangent; relative error below 5e-16 over the whole range (checked against the C library in the */
+/* tests). About 25 multiplications and two divisions. Source: M. Abramowitz, I. A. Stegun, */
+/* "Handbook of Mathematical Functions", 1964, 4.4. */
+
+namespace wireskin {
+
+inline constexpr double k_pi = 3.14159265358979323846;
+
+/* The angle of the vector (x, y) against the x axis, in radians, in [0, pi] for y >= 0. For y < 0 */
+/* the result is negative. (0, 0) has the angle 0, one that is not a number, or infinite in both */
+/* directions, has none: NaN. */
+double arc_tangent(double y, double x);
+
+/* The angle between two vectors in radians, 0 to pi, accurate for small and for straight angles. */
+inline double angle_between(const Vec3& a, const Vec3& b) {
+  return arc_tangent(length(cross(a, b)), dot(a, b));
+}
+
+}  /* namespace wireskin */
+/* ======== end src/num/trig.h ======== */
+
 /* ======== begin src/base/sort.h ======== */
 /* Sorting in place, without allocation or recursion: quicksort with the median of three, insertion */
 /* sort on short runs, heapsort where the pivots turn out badly (Musser, "Introspective Sorting and */
@@ -4542,63 +4630,42 @@ inline void sort_distinct(const uint32_t* values, uint32_t count, uint32_t* to) 
 }  /* namespace wireskin */
 /* ======== end src/base/sort.h ======== */
 
-/* ======== begin src/network/integrate.h ======== */
-/* Positions from arc lengths and tangents: what a sensor that knows its direction, but not its */
-/* place, measures along the curves of a network. */
-/* */
-/* In: curves whose samples have points (network/wires.h), arc length and unit tangent; a closed */
-/* curve repeats its first sample. Out: positions such that the sum over all steps of */
-/* |step - step of the circular arc with these tangents|^2 / length is least, the first sample of */
-/* every component being the origin: a Laplacian over the points, so samples of one point coincide */
-/* exactly. Cost: one sparse factorisation, whose fill stays small because most points have two */
-/* neighbours. */
-/* */
-/* Source: T. Stanko, S. Hahmann, G.-P. Bonneau, N. Saguin-Sprynski, "Shape from sensors: Curve */
-/* networks on surfaces from 3D orientations", 2017. */
-
-namespace wireskin::network {
-
-struct SensorSamples {
-  Span<const uint32_t> start;  /* curve c has the samples start[c] .. start[c + 1) */
-  Span<const uint32_t> point;  /* of each sample */
-  uint32_t points = 0;
-  Span<const double> arc;    /* ascending along each curve */
-  Span<const Vec3> tangent;  /* unit */
-  /* Of each curve: its tangents are the directions to the next samples, not those at the samples. */
-  Span<const uint8_t> to_next;
-};
-
-/* `residual`: the root mean square of the steps' misfit, per sample. */
-Status integrate_tangents(Context& context, const SensorSamples& samples, Span<Vec3> position,
-                          double* residual);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/integrate.h ======== */
-
-/* ======== begin src/num/trig.h ======== */
-/* Own trigonometry, because that of the C libraries differs in the last bits between targets. */
-/* */
-/* A table of the angles of k / 8 by the subtraction formula, then the Taylor series of the */
-/* arctangent; relative error below 5e-16 over the whole range (checked against the C library in the */
-/* tests). About 25 multiplications and two divisions. Source: M. Abramowitz, I. A. Stegun, */
-/* "Handbook of Mathematical Functions", 1964, 4.4. */
+/* ======== begin src/base/sort_in_parts.h ======== */
+/* sort() of so many values that a caller should not have to wait for its end: a checkpoint before */
+/* each partition of a long run. Short runs are left to sort(), and so are those whose pivots have */
+/* turned out badly; the result is the same, for `less` must be a total order. */
 
 namespace wireskin {
 
-inline constexpr double k_pi = 3.14159265358979323846;
-
-/* The angle of the vector (x, y) against the x axis, in radians, in [0, pi] for y >= 0. For y < 0 */
-/* the result is negative. (0, 0) has the angle 0, one that is not a number, or infinite in both */
-/* directions, has none: NaN. */
-double arc_tangent(double y, double x);
-
-/* The angle between two vectors in radians, 0 to pi, accurate for small and for straight angles. */
-inline double angle_between(const Vec3& a, const Vec3& b) {
-  return arc_tangent(length(cross(a, b)), dot(a, b));
+template <typename T, typename Less>
+Status sort_in_parts(Context& context, Span<T> values, const Less& less) {
+  struct Run {
+    Span<T> values;
+    int budget;
+  };
+  Run stack[64];  /* the longer part waits, so the depth is at most log2 of the size */
+  int depth = 0, budget = 2;
+  for (size_t n = values.size(); n > 1; n >>= 1) budget += 2;
+  stack[depth++] = {values, budget};
+  while (depth > 0) {
+    Run run = stack[--depth];
+    while (run.values.size() > k_steps_per_checkpoint && run.budget-- > 0) {
+      TRY(context.checkpoint());
+      T* const middle = partition(run.values.begin(), run.values.end(), less);
+      const size_t cut = static_cast<size_t>(middle - run.values.begin());
+      const Span<T> left = run.values.part(0, cut);
+      const Span<T> right = run.values.part(cut, run.values.size() - cut);
+      const bool right_waits = left.size() < right.size();
+      stack[depth++] = {right_waits ? right : left, run.budget};
+      run.values = right_waits ? left : right;
+    }
+    sort(run.values, less);
+  }
+  return {};
 }
 
 }  /* namespace wireskin */
-/* ======== end src/num/trig.h ======== */
+/* ======== end src/base/sort_in_parts.h ======== */
 
 /* ======== begin src/curves/spline.h ======== */
 /* Interpolating cubic splines through points of space: natural, clamped or periodic ends. */
@@ -4731,11 +4798,47 @@ struct CurvePoint {
 /* arc[first] <= s <= arc[last]. */
 CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s);
 
+/* Finding it takes a microsecond or two, as long as so many steps of a usual pass. */
+inline constexpr size_t k_steps_of_point = 8;
+
 /* The direction of the curve at a knot (not unit). */
 Vec3 tangent_at_knot(const Curve& curve, uint32_t knot);
 
 }  /* namespace wireskin::curves */
 /* ======== end src/curves/curve.h ======== */
+
+/* ======== begin src/base/search.h ======== */
+/* Binary search in [first, end) by a question that is answered yes up to some index and no from */
+/* there on. */
+
+namespace wireskin {
+
+/* The first index for which `holds` is false; `end` if there is none. */
+template <typename Index, typename Holds>
+Index first_failing(Index first, Index end, const Holds& holds) {
+  while (first < end) {
+    const Index middle = first + (end - first) / 2;
+    if (holds(middle)) {
+      first = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return first;
+}
+
+/* The last index for which `holds` is true, as it is for `first`, which is not asked. */
+template <typename Index, typename Holds>
+Index last_holding(Index first, Index end, const Holds& holds) {
+  while (end - first > 1) {
+    const Index middle = first + (end - first) / 2;
+    (holds(middle) ? first : end) = middle;
+  }
+  return first;
+}
+
+}  /* namespace wireskin */
+/* ======== end src/base/search.h ======== */
 
 /* ======== begin src/curves/opposed.h ======== */
 /* Whether two normals of a surface lie on different sides of it, as far as a chord of it tells. */
@@ -5401,44 +5504,6 @@ Status merge_cells(Context& context, const Samples& samples, const StraightLines
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/merge_cells.h ======== */
-
-/* ======== begin src/base/sort_in_parts.h ======== */
-/* sort() of so many values that a caller should not have to wait for its end: a checkpoint before */
-/* each partition of a long run. Short runs are left to sort(), and so are those whose pivots have */
-/* turned out badly; the result is the same, for `less` must be a total order. */
-
-namespace wireskin {
-
-template <typename T, typename Less>
-Status sort_in_parts(Context& context, Span<T> values, const Less& less) {
-  constexpr size_t k_part = 1 << 13;
-  struct Run {
-    Span<T> values;
-    int budget;
-  };
-  Run stack[64];  /* the longer part waits, so the depth is at most log2 of the size */
-  int depth = 0, budget = 2;
-  for (size_t n = values.size(); n > 1; n >>= 1) budget += 2;
-  stack[depth++] = {values, budget};
-  while (depth > 0) {
-    Run run = stack[--depth];
-    while (run.values.size() > k_part && run.budget-- > 0) {
-      TRY(context.checkpoint());
-      T* const middle = partition(run.values.begin(), run.values.end(), less);
-      const size_t cut = static_cast<size_t>(middle - run.values.begin());
-      const Span<T> left = run.values.part(0, cut);
-      const Span<T> right = run.values.part(cut, run.values.size() - cut);
-      const bool right_waits = left.size() < right.size();
-      stack[depth++] = {right_waits ? right : left, run.budget};
-      run.values = right_waits ? left : right;
-    }
-    sort(run.values, less);
-  }
-  return {};
-}
-
-}  /* namespace wireskin */
-/* ======== end src/base/sort_in_parts.h ======== */
 
 /* ======== begin src/num/expansion.h ======== */
 /* Floating-point expansions: exact numbers as unevaluated sums of doubles, with exact sum, */
@@ -6345,7 +6410,7 @@ class BoxTree {
   Status find(const Box& box, uint32_t after, Array<uint32_t>* found) const;
 
  private:
-  Box bound(uint32_t first, uint32_t count) const;
+  Status bound(uint32_t first, uint32_t count, Box* box) const;
   Status halve(uint32_t first, uint32_t count);
 
   Span<const Box> boxes_;
@@ -6432,7 +6497,7 @@ struct Beads {
   void unite(uint32_t a, uint32_t b);
   /* Makes points one that are no farther apart along a curve than `reach`, where something came to */
   /* one of them, as where many curves meet in about one point. */
-  void unite_close(double reach);
+  Status unite_close(double reach);
 };
 
 }  /* namespace wireskin::network */
@@ -6986,54 +7051,17 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
 }  /* namespace wireskin::network */
 /* ======== end src/network/enclosure.h ======== */
 
-/* ======== begin src/network/facing.h ======== */
-/* Loops as those see them that ask what they face: thinned to places with their conormals, which */
-/* point into the patch along the surface. */
-/* */
-/* In: borders of patches. Out: places, and the area of a band between two loops, in time in */
-/* proportion to the pairs of places. */
-
-namespace wireskin::network {
-
-/* A side of a loop that may face another one: a thinned list of its vertices. */
-struct Facing {
-  uint32_t patch;
-  bool reversed;
-  uint32_t first, count;  /* of the probes */
-  bool needy;             /* hard to close alone */
-  double alone;           /* what closing it costs */
-  Vec3 centre;
-  double radius;
-  bool sideless = false;  /* a ring whose normals do not tell on which side it could be closed */
-};
-
-struct Probe {
-  Vec3 position, conormal;
-  double share;  /* of the length of the loop */
-};
-
-Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reversed, double cosine,
-                  double area, Array<Facing>* facing, Array<Probe>* probes);
-
-/* The area of a band from a's probes to the nearest ones of b, more where its conormals lead */
-/* elsewhere; negative where they do not lead there. */
-double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, double least_cosine);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/facing.h ======== */
-
 /* ======== begin src/network/group.h ======== */
 /* Which loops bound a patch together, and which pieces lie inside which patch. */
 /* */
 /* In: a network every cycle of which is a patch of its own, and the curve vertices. Out: the same */
-/* network with patches of several loops and with inner segments and points. Five rules, in this */
+/* network with patches of several loops and with inner segments and points. Four rules, in this */
 /* order, each in a file of its own; where none applies every cycle stays a patch. */
 /* 1. A component that a patch encloses in its plane joins it (group_enclosed.h). */
 /* 2. Closed curves apart from the rest are joined in pairs, with little area (group_rings.h). */
 /* 3. Loops that see each other along the surface join (group_sight.h). */
-/* 4. Other loops face each other over a band of little area (group_facing.h). */
-/* 5. What lies on the guessed surface of a patch joins it (group_guests.h). */
-/* Rules 1 to 4 make new patches before rule 5 looks. O(n log^2 n) and the pairs that are near. */
+/* 4. What lies on the guessed surface of a patch joins it (group_guests.h). */
+/* Rules 1 to 3 make new patches before rule 4 looks. O(n log^2 n) and the pairs that are near. */
 
 namespace wireskin::network {
 
@@ -7120,27 +7148,8 @@ Status join_enclosed(Grouping* g);
 }  /* namespace wireskin::network */
 /* ======== end src/network/group_enclosed.h ======== */
 
-/* ======== begin src/network/group_facing.h ======== */
-/* Rule 4 of network/group.h: loops face each other where a band between them has less area than */
-/* closing both alone would take. */
-/* */
-/* In: the loops that nothing was joined to yet, rings of boundary curves by both sides. Out: pairs */
-/* joined, the band with the least area first. Conormals must lead from either loop to the other */
-/* (network/facing.h); closing a loop alone takes the spherical cap that leaves it along its */
-/* conormals, for a circle of area A and the mean cosine m between its normals and its axis 2 A / */
-/* (1 + m), times (2 / (1 + m))^2 for what it bends. Loops that pass the same vertex never join. */
-/* A join is ambiguous where another choice has hardly more area. O(n^2) in the loops that are near */
-/* each other. */
-
-namespace wireskin::network {
-
-Status join_facing(Grouping* g);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/group_facing.h ======== */
-
 /* ======== begin src/network/group_guests.h ======== */
-/* Rule 5 of network/group.h: what lies on the guessed surface of a patch joins that patch. */
+/* Rule 4 of network/group.h: what lies on the guessed surface of a patch joins that patch. */
 /* */
 /* In: what the rules before have left alone: pieces that bound nothing and are not `settled`, loops */
 /* that run clockwise round their normals, rings of boundary curves. Out: those that lie on the */
@@ -7163,8 +7172,8 @@ Status join_guests(Grouping* g, Span<const uint8_t> settled);
 /* In: what the plane has joined (network/group_enclosed.h). Every side of a ring is a loop of its */
 /* own; of a ring of boundary curves only one is to have surface. Out: sides joined in pairs so that */
 /* the areas are small in sum (network/ring_pairs.h), and sides left alone that see both loops of a */
-/* pair well joined to it. Both are settled: neither rule 3 nor rule 4 joins them again. Rings near */
-/* other curves, and rings near such ones, are left to these rules. O(n^2) in the distances of */
+/* pair well joined to it. Both are settled: rule 3 does not join them again. Rings near */
+/* other curves, and rings near such ones, are left to the rules behind. O(n^2) in the distances of */
 /* loops where there are rings at all; so many bands as network/ring_bands.h looks at. */
 
 namespace wireskin::network {
@@ -8412,14 +8421,13 @@ Status append_column(Span<const uint32_t> rows, Span<const double> sum, Csc* mat
 
 Status transpose(const Csc& a, Csc* result) {
   const size_t entries = a.row.size();
-  TRY(result->start.assign(size_t{a.rows} + 1, 0));
+  TRY(assign_in_parts(size_t{a.rows} + 1, 0, &result->start));
   TRY(result->row.resize(entries));
   TRY(result->value.resize(entries));
   Array<uint32_t> next(a.start.context());
-  TRY(next.resize(size_t{a.rows} + 1));
   TRY(in_parts(a.start.context(), entries, [&](size_t k) { ++result->start[a.row[k]]; }));
   starts_from_counts(result->start.span());
-  TRY(in_parts(a.start.context(), next.size(), [&](size_t i) { next[i] = result->start[i]; }));
+  TRY(copy_in_parts(result->start, &next));
   for (uint32_t j = 0; j < a.cols; ++j) {
     TRY(checkpoint_at_column(a.start.context(), j));
     for (uint32_t k = a.start[j]; k < a.start[j + 1]; ++k) {
@@ -8437,14 +8445,14 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
                        Pattern* result, bool with_source) {
   Context& context = lower.start.context();
   const uint32_t n = lower.cols;
-  TRY(result->start.assign(size_t{n} + 1, 0));
+  TRY(assign_in_parts(size_t{n} + 1, 0, &result->start));
   TRY(result->index.resize(lower.row.size()));
   if (with_source) TRY(result->source.resize(lower.row.size()));
   Array<uint32_t> next(context);
-  TRY(next.resize(size_t{n} + 1));
+  Pace pace(context);
   const bool by_smaller = triangle == Triangle::lower;
   for (uint32_t j = 0; j < n; ++j) {
-    TRY(checkpoint_at_column(context, j));
+    TRY(pace.after(lower.start[j + 1] - lower.start[j]));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
       const uint32_t a = position[lower.row[k]], b = position[j];
       const uint32_t smaller = a < b ? a : b, larger = a < b ? b : a;
@@ -8452,9 +8460,9 @@ Status permute_pattern(const Csc& lower, Span<const uint32_t> position, Triangle
     }
   }
   starts_from_counts(result->start.span());
-  TRY(in_parts(context, next.size(), [&](size_t j) { next[j] = result->start[j]; }));
+  TRY(copy_in_parts(result->start, &next));
   for (uint32_t j = 0; j < n; ++j) {
-    TRY(checkpoint_at_column(context, j));
+    TRY(pace.after(lower.start[j + 1] - lower.start[j]));
     for (uint32_t k = lower.start[j]; k < lower.start[j + 1]; ++k) {
       const uint32_t a = position[lower.row[k]], b = position[j];
       const uint32_t smaller = a < b ? a : b, larger = a < b ? b : a;
@@ -9280,8 +9288,6 @@ network::SmoothingOptions smoothing_of(const wsk_options& options, const Scale& 
 /* ======== begin src/mesh/mesh.cpp ======== */
 namespace wireskin::mesh {
 
-static constexpr size_t k_per_checkpoint = 16384;  /* triangles or vertices */
-
 static Status fail_triangle(const char* sentence, size_t triangle) {
   Place place;
   place.triangle = static_cast<uint32_t>(triangle);
@@ -9295,6 +9301,7 @@ static Status fail_vertex(const char* sentence, size_t vertex) {
 }
 
 static Status check_indices(Context& context, uint32_t vertices, Span<const uint32_t> triangles) {
+  Pace pace(context);
   for (size_t t = 0; t < triangles.size() / 3; ++t) {
     const uint32_t a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
     if (a >= vertices || b >= vertices || c >= vertices) {
@@ -9304,7 +9311,7 @@ static Status check_indices(Context& context, uint32_t vertices, Span<const uint
                   place);
     }
     if (a == b || b == c || c == a) return fail_triangle("the triangle has a vertex twice", t);
-    if (t % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -9312,7 +9319,7 @@ static Status check_indices(Context& context, uint32_t vertices, Span<const uint
 Status find_corners(uint32_t vertices, Span<const uint32_t> triangles, Array<uint32_t>* start,
                     Array<uint32_t>* corner) {
   Context& context = start->context();
-  TRY(start->assign(size_t{vertices} + 1, 0));
+  TRY(assign_in_parts(size_t{vertices} + 1, 0, start));
   TRY(corner->resize(triangles.size()));
   TRY(in_parts(context, triangles.size(), [&](size_t h) { ++(*start)[triangles[h]]; }));
   starts_from_counts(start->span());
@@ -9328,9 +9335,11 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
   TRY(check_indices(context, vertices, triangles));
   Array<uint32_t> start(context), corner(context), leaving_to(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(leaving_to.assign(vertices, k_none));  /* of each vertex: the half-edge to it from this one */
+  TRY(assign_in_parts(vertices, k_none,
+                      &leaving_to));  /* of each vertex: the half-edge to it from this one */
   TRY(twins->resize(triangles.size()));
   const auto head = [&](uint32_t h) { return triangles[next_half_edge(h)]; };
+  Pace pace(context);
   for (uint32_t v = 0; v < vertices; ++v) {
     const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
     for (uint32_t h : leaving) {
@@ -9346,7 +9355,7 @@ Status find_twins(uint32_t vertices, Span<const uint32_t> triangles, Array<uint3
       (*twins)[arriving] = leaving_to[triangles[arriving]];
     }
     for (uint32_t h : leaving) leaving_to[head(h)] = k_none;
-    if (v % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -9360,7 +9369,8 @@ static uint32_t root_of(Span<uint32_t> parent, uint32_t v) {
 static Status find_components(Context& context, Span<const uint32_t> triangles,
                               Topology* topology) {
   const Span<uint32_t> parent = topology->component.span();
-  for (uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
+  TRY(in_parts<k_light_steps_per_checkpoint>(
+      context, parent.size(), [&](size_t v) { parent[v] = static_cast<uint32_t>(v); }));
   TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
     for (size_t h = 3 * t + 1; h < 3 * t + 3; ++h) {
       const uint32_t a = root_of(parent, triangles[3 * t]), b = root_of(parent, triangles[h]);
@@ -9368,10 +9378,9 @@ static Status find_components(Context& context, Span<const uint32_t> triangles,
     }
   }));
   /* Roots come before their members, so one pass replaces parents by component numbers. */
-  for (uint32_t v = 0; v < parent.size(); ++v) {
+  return in_parts(context, parent.size(), [&](size_t v) {
     parent[v] = parent[v] == v ? topology->components++ : parent[parent[v]];
-  }
-  return {};
+  });
 }
 
 namespace {
@@ -9388,7 +9397,9 @@ struct Fan {
 
 static Status find_fans(Context& context, Span<const uint32_t> triangles,
                         Span<const uint32_t> twins, Span<Fan> fans) {
-  for (Fan& fan : fans) fan = {0, 0, 0};
+  TRY(in_parts<k_light_steps_per_checkpoint>(context, fans.size(), [&](size_t v) {
+    fans[v] = {0, 0, 0};
+  }));
   return in_parts(context, triangles.size(), [&](size_t h) {
     Fan& fan = fans[triangles[h]];
     const uint32_t border = twins[h] == k_none;
@@ -9402,6 +9413,7 @@ static Status find_fans(Context& context, Span<const uint32_t> triangles,
 /* compares the number of triangles met with those it has. */
 static Status check_fans(Context& context, Span<const uint32_t> twins, Span<const Fan> fans,
                          Span<uint8_t> on_border) {
+  Pace pace(context);
   for (size_t v = 0; v < fans.size(); ++v) {
     const Fan fan = fans[v];
     if (fan.corners == 0) return fail_vertex("the vertex belongs to no triangle", v);
@@ -9414,7 +9426,7 @@ static Status check_fans(Context& context, Span<const uint32_t> twins, Span<cons
       return fail_vertex("the triangles round the vertex do not form one fan", v);
     }
     on_border[v] = fan.borders == 1;
-    if (v % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -9422,11 +9434,14 @@ static Status check_fans(Context& context, Span<const uint32_t> twins, Span<cons
 /* Follows every border once, marking its half-edges. */
 static Status count_loops(Span<const uint32_t> twins, Context& context, uint32_t* loops) {
   Array<uint8_t> seen(context);
-  TRY(seen.assign(twins.size(), 0));
+  TRY(assign_in_parts(twins.size(), 0, &seen));
+  Pace pace(context, k_light_steps_per_checkpoint);
   for (uint32_t h = 0; h < twins.size(); ++h) {
+    TRY(pace.after());
     if (twins[h] != k_none || seen[h]) continue;
     ++*loops;
     for (uint32_t g = h; !seen[g];) {
+      TRY(pace.after());
       seen[g] = 1;
       g = next_half_edge(g);
       while (twins[g] != k_none) g = next_half_edge(twins[g]);
@@ -9440,7 +9455,7 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
   Context& context = topology->on_border.context();
   Array<Fan> fans(context);
   TRY(fans.resize(vertices));
-  TRY(topology->on_border.assign(vertices, 0));
+  TRY(assign_in_parts(vertices, 0, &topology->on_border));
   TRY(topology->component.resize(vertices));
   TRY(find_fans(context, triangles, twins, fans.span()));
   TRY(check_fans(context, twins, fans.span(), topology->on_border.span()));
@@ -9454,11 +9469,12 @@ Status find_topology(uint32_t vertices, Span<const uint32_t> triangles, Span<con
 }
 
 Status check_areas(Context& context, Span<const Vec3> positions, Span<const uint32_t> triangles) {
+  Pace pace(context);
   for (size_t t = 0; t < triangles.size(); t += 3) {
     const Vec3& a = positions[triangles[t]];
     const Vec3 area = cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a);
     if (!(dot(area, area) > 0.0)) return fail_triangle("the triangle has no area", t / 3);
-    if (t / 3 % k_per_checkpoint == k_per_checkpoint - 1) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -9516,10 +9532,12 @@ static uint32_t first_of_sector(Span<const uint32_t> twins, Span<const uint8_t> 
 Status cut_open(uint32_t vertices, Span<const uint32_t> triangles, Span<const uint32_t> twins,
                 Span<const uint8_t> marked, Cut* cut) {
   Array<uint8_t> taken(cut->origin.context());
-  TRY(taken.assign(vertices, 0));
-  TRY(cut->triangle.assign(triangles.size(), k_none));
+  TRY(assign_in_parts(vertices, 0, &taken));
+  TRY(assign_in_parts(triangles.size(), k_none, &cut->triangle));
   TRY(cut->origin.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) cut->origin[v] = v;
+  TRY(in_parts<k_light_steps_per_checkpoint>(cut->origin.context(), vertices, [&](size_t v) {
+    cut->origin[v] = static_cast<uint32_t>(v);
+  }));
   Pace pace(cut->origin.context());
   for (uint32_t h = 0; h < triangles.size(); ++h) {
     TRY(pace.after());
@@ -9557,7 +9575,7 @@ Status corner_normals(const Cut& cut, uint32_t vertices, Span<const Vec3> normal
   result->normal.clear();
   if (cut.vertices() == vertices) return {};
   Array<uint8_t> parted(result->corner.context());
-  TRY(parted.assign(vertices, 0));
+  TRY(assign_in_parts(vertices, 0, &parted));
   for (uint32_t c = vertices; c < cut.vertices(); ++c) parted[cut.origin[c]] = 1;
   Pace pace(result->corner.context());
   for (uint32_t h = 0; h < cut.triangle.size(); ++h) {
@@ -9587,7 +9605,7 @@ static Status find_manifold_twins(uint32_t vertices, Span<const uint32_t> triang
   Array<uint32_t> start(context), corner(context);
   Array<EdgeCount> to(context);
   TRY(find_corners(vertices, triangles, &start, &corner));
-  TRY(to.assign(vertices, EdgeCount{}));
+  TRY(assign_in_parts(vertices, EdgeCount{}, &to));
   TRY(twins->resize(triangles.size()));
   return in_parts(context, vertices, [&](size_t v) {
     const Span<const uint32_t> leaving = corner.span().part(start[v], start[v + 1] - start[v]);
@@ -9622,7 +9640,7 @@ Status find_crease_normals(Context& context, Span<const Vec3> positions,
   Array<Vec3> place(context), normal(context);
   Cut cut(context);
   TRY(find_manifold_twins(vertices, triangles, &twins));
-  TRY(crease.assign(triangles.size(), 0));
+  TRY(assign_in_parts(triangles.size(), 0, &crease));
   TRY(in_parts(context, triangles.size(), [&](size_t i) {
     const uint32_t h = static_cast<uint32_t>(i), twin = twins[h];
     if (twin == k_none || twin < h) return;
@@ -9674,8 +9692,8 @@ Status gaussian_curvature(Span<const Vec3> positions, Span<const uint32_t> trian
   Context& context = curvature->context();
   const size_t n = positions.size();
   Array<double> area(context);
-  TRY(curvature->assign(n, 2.0 * k_pi));
-  TRY(area.assign(n, 0.0));
+  TRY(assign_in_parts(n, 2.0 * k_pi, curvature));
+  TRY(assign_in_parts(n, 0.0, &area));
   TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
     const uint32_t* v = &triangles[3 * t];
     const TriangleShape shape = triangle_shape(positions[v[0]], positions[v[1]], positions[v[2]]);
@@ -9707,8 +9725,9 @@ Status dihedral_angles(Context& context, Span<const Vec3> positions, Span<const 
                        AngleStatistics* dihedral) {
   /* Edges of curves have both ends on curves, and so have their triangles: the others are left out. */
   Array<uint32_t> twins(context), corner(context), own_patch(context);
+  Pace pace(context);
   for (size_t t = 0; 3 * t < triangles.size(); ++t) {
-    if (t % 65536 == 65535) TRY(context.checkpoint());
+    TRY(pace.after());
     const uint32_t* v = &triangles[3 * t];
     if (on_curve[v[0]] + on_curve[v[1]] + on_curve[v[2]] < 2) continue;
     for (size_t k = 0; k < 3; ++k) TRY(corner.push(v[k]));
@@ -9901,10 +9920,13 @@ struct Pair {
 
 }  /* namespace */
 
+/* Builds that count what tests reach set it to `inline`, or each copy would count for itself. */
+#ifndef WIRESKIN_INLINE
 #ifdef WIRESKIN_VECTORS
 #define WIRESKIN_INLINE __attribute__((always_inline)) inline
 #else
 #define WIRESKIN_INLINE inline
+#endif
 #endif
 /* A tile lives in registers only if the loops over it are unrolled, which gcc leaves undone at -O2. */
 #if defined(__GNUC__) && !defined(__clang__)
@@ -11502,10 +11524,11 @@ static constexpr uint32_t k_diagonal_blocks = k_panel_block / DiagonalBlock::k_s
 
 namespace {
 
-/* Some columns under way: their diagonal blocks once these are factored. */
+/* Some columns under way: the columns before them whose products they lose at a time, and their */
+/* diagonal blocks once these are factored. */
 struct ColumnBlock {
-  uint32_t first;
-  uint32_t count;
+  uint32_t first, count;
+  uint32_t from, depth;
   DiagonalBlock diagonal[k_diagonal_blocks];
 };
 
@@ -11558,17 +11581,17 @@ static uint32_t columns_of_diagonal(const ColumnBlock& block, uint32_t offset) {
   return left < DiagonalBlock::k_size ? left : DiagonalBlock::k_size;
 }
 
-/* The rows first .. end of a block of columns lose what the columns before `from_column` inside */
-/* the block contribute to `columns` columns at `column`. */
-static void update_columns(const PanelTools& tools, const Panel& panel, uint32_t from_column,
-                           uint32_t column, uint32_t columns, uint32_t first, uint32_t end,
-                           double* scratch) {
-  if (column == from_column) return;
-  const size_t step = panel.step(from_column);
-  tools.kernels->update({end - first, columns, column - from_column, panel.at(first, from_column),
-                         step, panel.at(column, from_column), 1, step, panel.at(first, column),
-                         panel.step(column), first == column, false, true, true},
-                        scratch);
+/* The rows first .. end of `columns` columns at `column` lose what `depth` columns at `from` */
+/* contribute. */
+static void update_columns(const PanelTools& tools, const Panel& panel, uint32_t from,
+                           uint32_t depth, uint32_t column, uint32_t columns, uint32_t first,
+                           uint32_t end, double* scratch) {
+  if (depth == 0) return;
+  const size_t step = panel.step(from);
+  tools.kernels->update(
+      {end - first, columns, depth, panel.at(first, from), step, panel.at(column, from), 1, step,
+       panel.at(first, column), panel.step(column), first == column, false, true, true},
+      scratch);
 }
 
 /* Factors the block's columns in the rows from the block's first on down to `end`. */
@@ -11580,7 +11603,7 @@ static uint32_t factor_block(const PanelTools& tools, const Panel& panel, uint32
     const uint32_t column = block->first + j;
     const size_t step = panel.step(column);
     double* at = panel.at(column, column);
-    update_columns(tools, panel, block->first, column, d->columns, column, end, tools.scratch);
+    update_columns(tools, panel, block->first, j, column, d->columns, column, end, tools.scratch);
     const uint32_t bad = factor_diagonal(at, step, d);
     if (bad != k_none) return column + bad;
     /* Rows are solved in fours; those of the diagonal block that come along are stored again. */
@@ -11598,16 +11621,18 @@ static void solve_rows_below(const PanelParts& parts, uint32_t first, uint32_t e
   for (uint32_t j = 0; j < block.count; j += DiagonalBlock::k_size) {
     const DiagonalBlock& d = block.diagonal[j / DiagonalBlock::k_size];
     const uint32_t column = block.first + j;
-    update_columns(*parts.tools, *parts.panel, block.first, column, d.columns, first, end, scratch);
+    update_columns(*parts.tools, *parts.panel, block.first, j, column, d.columns, first, end,
+                   scratch);
     parts.tools->kernels->solve_block(d, end - first, parts.panel->at(first, column),
                                       static_cast<ptrdiff_t>(parts.panel->step(column)));
   }
 }
 
-/* The rows first .. end of the block lose what all columns before the block contribute. */
+/* The rows first .. end of the block. */
 static void update_rows(const PanelParts& parts, uint32_t first, uint32_t end, double* scratch) {
-  update_columns(*parts.tools, *parts.panel, 0, parts.block->first, parts.block->count, first, end,
-                 scratch);
+  const ColumnBlock& block = *parts.block;
+  update_columns(*parts.tools, *parts.panel, block.from, block.depth, block.first, block.count,
+                 first, end, scratch);
 }
 
 /* The columns first .. end of the update matrix. */
@@ -11646,7 +11671,7 @@ static ColumnBlock block_at(const Panel& panel, uint32_t first) {
 uint32_t factor_panel(const PanelTools& tools, const Panel& panel) {
   for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
     ColumnBlock block = block_at(panel, first);
-    update_columns(tools, panel, 0, first, block.count, first, panel.rows(), tools.scratch);
+    update_columns(tools, panel, 0, first, first, block.count, first, panel.rows(), tools.scratch);
     const uint32_t bad = factor_block(tools, panel, panel.rows(), &block);
     if (bad != k_none) return bad;
   }
@@ -11716,6 +11741,19 @@ static Status update_tail_in_parts(Context& context, const PanelTools& tools, co
   return {};
 }
 
+/* The same for a block of the panel's own columns and its rows from `below` on. */
+static Status update_rows_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
+                                   uint32_t below, ColumnBlock* block) {
+  constexpr uint32_t k_most_depth = 4 * k_block_depth;
+  for (block->from = 0; block->from < block->first; block->from += block->depth) {
+    const uint32_t left = block->first - block->from;
+    block->depth = left < k_most_depth ? left : k_most_depth;
+    TRY(run_parts(context, {&tools, &panel, block, nullptr, below, panel.rows(), 0, &update_rows},
+                  double{k_panel_block} * block->depth));
+  }
+  return {};
+}
+
 Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Panel& panel,
                              uint32_t* bad_column) {
   *bad_column = k_none;
@@ -11723,11 +11761,10 @@ Status factor_panel_in_parts(Context& context, const PanelTools& tools, const Pa
   for (uint32_t first = 0; first < panel.width; first += k_panel_block) {
     ColumnBlock block = block_at(panel, first);
     const uint32_t below = round_up_rows(first + block.count);
-    update_columns(tools, panel, 0, first, block.count, first, below, tools.scratch);
+    update_columns(tools, panel, 0, first, first, block.count, first, below, tools.scratch);
     if (below < rows) {
       TRY(context.checkpoint());
-      TRY(run_parts(context, {&tools, &panel, &block, nullptr, below, rows, 0, &update_rows},
-                    double{k_panel_block} * (first + 1)));
+      TRY(update_rows_in_parts(context, tools, panel, below, &block));
     }
     *bad_column = factor_block(tools, panel, below, &block);
     if (*bad_column != k_none) return {};
@@ -11771,7 +11808,7 @@ static Status order_by_tree(const Csc& lower, Array<uint32_t>* order, Array<uint
   const uint32_t n = lower.cols;
   Pattern upper(context);
   Array<uint32_t> tree(context), post(context), given(context);
-  TRY(given.copy(order->span()));
+  TRY(copy_in_parts(*order, &given));
   TRY(parent->resize(n));
   TRY(permute_pattern(lower, position->span(), Triangle::upper, &upper, false));
   TRY(elimination_tree(upper, &tree));
@@ -11811,8 +11848,8 @@ Status Cholesky::analyse(const Csc& lower, Span<const uint32_t> order) {
   n_ = lower.cols;
   Array<uint32_t> position(*context_), parent(*context_), count(*context_);
   if (order.size() != n_) return fail(Code::bad_argument, k_no_permutation);
-  TRY(order_.copy(order));
-  TRY(position.assign(n_, k_none));
+  TRY(copy_in_parts(order, &order_));
+  TRY(assign_in_parts(n_, k_none, &position));
   for (uint32_t k = 0; k < n_; ++k) {
     TRY(checkpoint_at_column(*context_, k));
     if (order[k] >= n_ || position[order[k]] != k_none) {
@@ -11926,9 +11963,8 @@ void Cholesky::assemble(uint32_t s, const double* source, uint32_t first, uint32
 
 /* Some columns after the other, with checkpoints between. */
 Status Cholesky::assemble_in_parts(uint32_t s, const double* source) {
-  constexpr uint32_t k_entries_per_checkpoint = 1u << 19;
   const uint32_t height = supernodes_.height(s);
-  const uint32_t most = k_entries_per_checkpoint / height + 1;
+  const uint32_t most = static_cast<uint32_t>(k_light_steps_per_checkpoint) / height + 1;
   for (uint32_t first = 0, end = 0; first < height; first = end) {
     end = height - first < most ? height : first + most;
     assemble(s, source, first, end);
@@ -12527,9 +12563,8 @@ Status System::iterate(size_t columns) {
 Status System::factor(Span<const double> weight, Span<const double> penalty, bool last) {
   Context& context = weight_.context();
   TRY(context.enter(Stage::operators));
-  TRY(weight_.copy(weight));
-  TRY(penalty_.copy(penalty));
-  TRY(context.checkpoint());
+  TRY(copy_in_parts(weight, &weight_));
+  TRY(copy_in_parts(penalty, &penalty_));
   if (unknowns_ == 0) return {};
   if (order_ == Order::one) {
     TRY(shifted_laplacian(*laplacian_, unknown_.span(), unknowns_, 1.0, {}, &matrix_));
@@ -12718,7 +12753,7 @@ struct Guided {
 /* The penalties of soft vertices, for positions or for normals. */
 static Status penalties(const Domain& domain, int order, bool normals, Array<double>* penalty) {
   const Soft& soft = domain.soft;
-  TRY(penalty->assign(soft.cutoff.size(), 0.0));
+  TRY(assign_in_parts(soft.cutoff.size(), 0.0, penalty));
   return in_parts(penalty->context(), penalty->size(), [&](size_t v) {
     if (soft.cutoff[v] == 0.0) return;
     const double cutoff = normals ? soft.normal_cutoff(v) : soft.cutoff[v];
@@ -12758,7 +12793,7 @@ static Status aim_at_conormals(Context& context, const Domain& domain, const Fie
                                Guided* guided) {
   if (domain.metric == Metric::planes) return {};
   const size_t n = field.position.size();
-  TRY(guided->conormal.assign(n, Vec3{}));
+  TRY(assign_in_parts(n, Vec3{}, &guided->conormal));
   TRY(guided->target.resize(n));
   TRY(add_conormals(context, domain, field, guided->conormal.span()));
   return in_parts(context, n, [&](size_t v) { guided->target[v] = -guided->conormal[v]; });
@@ -12947,11 +12982,9 @@ static Status take_vertices(const network::CurveVertices& vertices,
                             const network::PatchMesh& patches, Surface* surface) {
   const size_t given = vertices.position.size();
   Context& context = surface->position.context();
-  TRY(surface->position.assign(patches.vertices, Vec3{}));
-  TRY(context.checkpoint());
-  TRY(surface->constraint_normal.assign(patches.vertices, Vec3{}));
-  TRY(context.checkpoint());
-  TRY(surface->vertex_curve.assign(patches.vertices, k_none));
+  TRY(assign_in_parts(patches.vertices, Vec3{}, &surface->position));
+  TRY(assign_in_parts(patches.vertices, Vec3{}, &surface->constraint_normal));
+  TRY(assign_in_parts(patches.vertices, k_none, &surface->vertex_curve));
   TRY(in_parts(context, given, [&](size_t v) {
     surface->position[v] = vertices.position[v];
     surface->constraint_normal[v] = vertices.normal[v];
@@ -13084,8 +13117,9 @@ static Status check_held(const TriangleSet& set, const mesh::Topology& topology)
   TRY(in_parts(context, set.constrained.size(), [&](size_t v) {
     if (set.constrained[v]) anchored[topology.component[v]] = 1;
   }));
+  Pace pace(context);
   for (uint32_t v = 0; v < set.constrained.size(); ++v) {
-    if (v % 65536 == 65535) TRY(context.checkpoint());
+    TRY(pace.after());
     Place place;
     place.vertex = v;
     if (topology.on_border[v] && !set.constrained[v]) {
@@ -13111,14 +13145,14 @@ static Status mean_edge_length(Context& context, Span<const Vec3> positions,
 
 static Status take_triangles(const TriangleSet& set, Surface* surface) {
   const size_t n = set.position.size();
-  TRY(surface->position.copy(set.position));
-  TRY(surface->triangle.copy(set.triangle));
-  TRY(surface->patch.assign(set.triangle.size() / 3, 0));
+  TRY(copy_in_parts(set.position, &surface->position));
+  TRY(copy_in_parts(set.triangle, &surface->triangle));
+  TRY(assign_in_parts(set.triangle.size() / 3, 0, &surface->patch));
   TRY(surface->patches.way.push(0));
   TRY(surface->patches.status.push(Status{}));
   TRY(surface->patches.curve_start.assign(2, 0));
-  TRY(surface->constraint_normal.assign(n, Vec3{}));
-  TRY(surface->vertex_curve.assign(n, k_none));
+  TRY(assign_in_parts(n, Vec3{}, &surface->constraint_normal));
+  TRY(assign_in_parts(n, k_none, &surface->vertex_curve));
   return in_parts(surface->position.context(), n, [&](size_t v) {
     if (!set.constrained[v]) return;
     surface->vertex_curve[v] = 0;
@@ -13269,20 +13303,12 @@ struct SurfaceLayout {
   }
 };
 
-static const uint32_t* write_indices(unsigned char* block, size_t offset,
-                                     const Array<uint32_t>& values) {
-  if (values.empty()) return nullptr;
-  std::memcpy(block + offset, values.data(), values.size() * sizeof(uint32_t));
-  return reinterpret_cast<const uint32_t*>(block + offset);
-}
-
-/* Of a million vertices they are so many that fresh memory alone takes its time. */
-static Status write_triangles(Context& context, const Array<uint32_t>& triangle,
-                              unsigned char* block, const uint32_t** to) {
-  constexpr size_t k_part = 1u << 17;
-  uint32_t* const written = reinterpret_cast<uint32_t*>(block);
-  *to = triangle.empty() ? nullptr : written;
-  return in_parts<k_part>(context, triangle.size(), [&](size_t i) { written[i] = triangle[i]; });
+static Status write_indices(const Array<uint32_t>& values, unsigned char* place,
+                            const uint32_t** indices) {
+  uint32_t* const out = reinterpret_cast<uint32_t*>(place);
+  *indices = values.empty() ? nullptr : out;
+  return in_parts<k_light_steps_per_checkpoint>(values.context(), values.size(),
+                                                [&](size_t i) { out[i] = values[i]; });
 }
 
 static Status write_curvatures(Context& context, const Surface& surface,
@@ -13299,8 +13325,8 @@ static Status write_curvatures(Context& context, const Surface& surface,
 }
 
 /* Surfaces of meshes and of flows have patches that no list says more of. */
-static void write_patch_list(const Surface& surface, const SurfaceLayout& layout,
-                             unsigned char* block, wsk_surface_view* view) {
+static Status write_patch_list(const Surface& surface, const SurfaceLayout& layout,
+                               unsigned char* block, wsk_surface_view* view) {
   const size_t listed = surface.patches.status.size();
   const char** sentence = reinterpret_cast<const char**>(block + layout.sentences);
   wsk_status* status = reinterpret_cast<wsk_status*>(block + layout.statuses);
@@ -13312,8 +13338,9 @@ static void write_patch_list(const Surface& surface, const SurfaceLayout& layout
   view->patch_sentence = listed > 0 ? sentence : nullptr;
   view->patch_status = listed > 0 ? status : nullptr;
   view->patch_way = listed > 0 ? block + layout.ways : nullptr;
-  view->patch_curve_start = write_indices(block, layout.patch_start, surface.patches.curve_start);
-  view->patch_curves = write_indices(block, layout.patch_curve, surface.patches.curve);
+  TRY(write_indices(surface.patches.curve_start, block + layout.patch_start,
+                    &view->patch_curve_start));
+  return write_indices(surface.patches.curve, block + layout.patch_curve, &view->patch_curves);
 }
 
 Status make_handle(Context& context, const Surface& surface, int exponent, wsk_surface** out) {
@@ -13339,20 +13366,19 @@ Status make_handle(Context& context, const Surface& surface, int exponent, wsk_s
   TRY(write_vectors(context, surface.constraint_normal.span(), none, block + layout.constraint,
                     &view.constraint_normals));
   TRY(write_curvatures(context, surface, layout, curvatures, block, &view));
-  view.vertex_curve = write_indices(block, layout.vertex_curve, surface.vertex_curve);
-  TRY(context.checkpoint());
-  TRY(write_triangles(context, surface.triangle, block + layout.triangle, &view.triangles));
-  TRY(context.checkpoint());
-  view.triangle_patch = write_indices(block, layout.patch, surface.patch);
-  view.curve_edges = write_indices(block, layout.edges, surface.curve_edge);
-  view.curve_edge_curve = write_indices(block, layout.edge_curve, surface.curve_edge_curve);
+  TRY(write_indices(surface.vertex_curve, block + layout.vertex_curve, &view.vertex_curve));
+  TRY(write_indices(surface.triangle, block + layout.triangle, &view.triangles));
+  TRY(write_indices(surface.patch, block + layout.patch, &view.triangle_patch));
+  TRY(write_indices(surface.curve_edge, block + layout.edges, &view.curve_edges));
+  TRY(write_indices(surface.curve_edge_curve, block + layout.edge_curve, &view.curve_edge_curve));
   if (SurfaceLayout::has_guard(surface)) {
     std::memcpy(block + layout.guarded, surface.patch_guarded.data(), surface.patch_guarded.size());
     view.patch_guarded = block + layout.guarded;
   }
-  write_patch_list(surface, layout, block, &view);
+  TRY(write_patch_list(surface, layout, block, &view));
   view.crease_corner_count = static_cast<uint32_t>(surface.crease_normals.corner.size());
-  view.crease_corners = write_indices(block, layout.crease_corners, surface.crease_normals.corner);
+  TRY(write_indices(surface.crease_normals.corner, block + layout.crease_corners,
+                    &view.crease_corners));
   if (view.crease_corner_count > 0) {
     TRY(write_vectors(context, surface.crease_normals.normal.span(), none,
                       block + layout.crease_normals, &view.crease_normals));
@@ -13477,17 +13503,10 @@ uint32_t find_edge(const Complex& complex, uint32_t u, uint32_t v) {
     u = v;
     v = kept;
   }
-  uint32_t low = complex.edge_first[u];
-  uint32_t high = complex.edge_first[u + 1];
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (complex.edge[2 * middle + 1] < v) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < complex.edge_first[u + 1] && complex.edge[2 * low + 1] == v ? low : k_none;
+  const uint32_t end = complex.edge_first[u + 1];
+  const uint32_t e = first_failing(complex.edge_first[u], end,
+                                   [&](uint32_t i) { return complex.edge[2 * i + 1] < v; });
+  return e < end && complex.edge[2 * e + 1] == v ? e : k_none;
 }
 
 Vec3 cross_of_triangle(const Complex& complex, uint32_t t) {
@@ -15881,12 +15900,8 @@ void remove_triangle(const Complex& complex, const CurveEdges& curves, uint32_t 
 /* Until nothing is loose or, if wished, a curve has lost its last triangle. */
 static Status drain_loose(const Complex& complex, const CurveEdges& curves, Protect protect,
                           bool until_bared, Sheet* sheet) {
-  constexpr size_t k_work_per_checkpoint = 1u << 13;
   while (!sheet->loose.empty() && !(until_bared && sheet->bared)) {
-    if (++sheet->work >= k_work_per_checkpoint) {
-      sheet->work = 0;
-      TRY(sheet->loose.context().checkpoint());
-    }
+    TRY(sheet->pace.after());
     const uint32_t e = sheet->loose.back();
     sheet->loose.pop();
     if (sheet->degree[e] != 1) continue;
@@ -15902,10 +15917,8 @@ Status peel_after(const Complex& complex, const CurveEdges& curves, Protect prot
   return drain_loose(complex, curves, protect, false, sheet);
 }
 
-Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet,
-                         bool* done) {
+Status peel_unless_bared(const Complex& complex, const CurveEdges& curves, Sheet* sheet) {
   TRY(drain_loose(complex, curves, Protect::curves, true, sheet));
-  *done = !sheet->bared;
   if (sheet->bared) undo_removal(complex, sheet);
   return {};
 }
@@ -16092,9 +16105,9 @@ struct Choice {
 enum class Verdict : uint8_t { wanted, accepted, unbounded, gone };
 
 /* Whether the creator's wall holds, together with those chosen before. */
-static Status try_void(Context& context, const Complex& complex, const CurveEdges& curves,
-                       const FlatCells& cells, uint32_t creator, uint32_t stamp, VoidTrial* trial,
-                       Verdict* verdict) {
+static Status try_void(const Complex& complex, const CurveEdges& curves, const FlatCells& cells,
+                       uint32_t creator, uint32_t stamp, VoidTrial* trial, Verdict* verdict) {
+  Context& context = trial->mark.context();
   TRY(copy_sheet(trial->all, &trial->peeled));
   TRY(context.checkpoint());
   add_to_sheet(complex, creator, &trial->peeled);
@@ -16134,7 +16147,7 @@ static Status try_voids(Context& context, const Complex& complex, const CurveEdg
     if (worth_it && tries < k_most_tries) {
       ++tries;
       TRY(context.checkpoint());
-      TRY(try_void(context, complex, curves, cells, v.creator, i, &trial, &verdict));
+      TRY(try_void(complex, curves, cells, v.creator, i, &trial, &verdict));
     }
     if (verdict == Verdict::unbounded) TRY(unbounded->push(i));
     if (verdict != Verdict::wanted && (verdict != Verdict::accepted || !high)) continue;
@@ -16222,8 +16235,7 @@ static Status open_handles(Context& context, const Complex& complex, const Curve
     if (finless.in[t] == 0) continue;
     begin_removal(&walls);
     remove_triangle(complex, curves, t, &walls);
-    bool done = false;
-    TRY(peel_unless_bared(complex, curves, &walls, &done));
+    TRY(peel_unless_bared(complex, curves, &walls));
     begin_removal(&finless);
     for (const uint32_t gone : walls.removed) remove_triangle(complex, curves, gone, &finless);
     TRY(peel_after(complex, curves, Protect::nothing, &finless));
@@ -16289,8 +16301,7 @@ static Status remove_open_walls(Context& context, const Complex& complex, const 
     if (whole && has_open_border(complex, curves, walls, wall.span())) {
       begin_removal(&walls);
       for (const uint32_t t : wall) remove_triangle(complex, curves, t, &walls);
-      bool done = false;
-      TRY(peel_unless_bared(complex, curves, &walls, &done));
+      TRY(peel_unless_bared(complex, curves, &walls));
     }
     for (const uint32_t t : wall) settled[t] = Settled::yes;
     TRY(pace.after(wall.size()));
@@ -16593,6 +16604,7 @@ static Status own_rest(const Complex& complex, const CurveEdges& curves, const S
 Status cut_patches(Context& context, const Complex& complex, const CurveEdges& curves,
                    const Samples& samples, const FlatCells& cells, const Persistence& persistence,
                    const Topology3& topology, Patches* patches) {
+  constexpr size_t k_steps_of_patch = 16;
   Classes classes(context);
   Border border(context);
   PatchLoops loops(context);
@@ -16620,8 +16632,7 @@ Status cut_patches(Context& context, const Complex& complex, const CurveEdges& c
         patches->triangle.span().part(first, patches->triangle.size() - first);
     TRY(add_patch(complex, curves, samples, side.span(), part, &loops, patches));
     TRY(patches->start.push(static_cast<uint32_t>(patches->triangle.size())));
-    if (c % 256 == 0) TRY(context.checkpoint());
-    TRY(pace.after(part.size()));
+    TRY(pace.after(k_steps_of_patch + part.size()));
   }
   return own_rest(complex, curves, topology.walls, &patches->owner);
 }
@@ -17589,7 +17600,7 @@ static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& m
   const size_t samples = flow.samples.position.size();
   Context& context = outcome->vertex_of.context();
   Array<uint32_t> number(context);
-  TRY(number.assign(mesh.position.size(), k_none));
+  TRY(assign_in_parts(mesh.position.size(), k_none, &number));
   TRY(in_parts(context, mesh.triangle.size(), [&](size_t i) { number[mesh.triangle[i]] = 0; }));
   for (const uint32_t v : flow.samples.at) number[v] = 0;
   TRY(surface->position.reserve(mesh.position.size()));
@@ -17602,7 +17613,7 @@ static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& m
   TRY(surface->triangle.resize(mesh.triangle.size()));
   TRY(in_parts(context, mesh.triangle.size(),
                [&](size_t i) { surface->triangle[i] = number[mesh.triangle[i]]; }));
-  TRY(surface->patch.copy(mesh.patch.span()));
+  TRY(copy_in_parts(mesh.patch.span(), &surface->patch));
   number.shrink(samples);
   outcome->vertex_of = static_cast<Array<uint32_t>&&>(number);
   return {};
@@ -17611,7 +17622,7 @@ static Status take_flow_vertices(const flow::Flow& flow, const flow::FlowMesh& m
 static Status take_flow_curves(const flow::Flow& flow, Span<const uint32_t> vertex_of,
                                Surface* surface) {
   const flow::Samples& samples = flow.samples;
-  TRY(surface->vertex_curve.assign(surface->position.size(), k_none));
+  TRY(assign_in_parts(surface->position.size(), k_none, &surface->vertex_curve));
   TRY(surface->curve_edge.reserve(2 * samples.at.size()));
   TRY(surface->curve_edge_curve.reserve(samples.at.size()));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
@@ -17663,7 +17674,7 @@ static Status take_flow_normals(const flow::Flow& flow, Span<const Vec3> given,
                                 Array<Vec3>* offset) {
   const flow::Samples& samples = flow.samples;
   const flow::Arcs& arcs = flow.arcs;
-  TRY(offset->assign(surface->position.size(), Vec3{}));
+  TRY(assign_in_parts(surface->position.size(), Vec3{}, offset));
   Array<Vec3> normal(surface->normal.context());
   TRY(normals_of_vertices(flow, given, &normal));
   for (uint32_t i = 0; i < samples.at.size(); ++i) {
@@ -17733,8 +17744,8 @@ static Status measure_flow_surface(Context& context, const mesh::Topology& topol
   TRY(surface->normal.resize(n));
   TRY(mesh::vertex_normals(context, surface->position.span(), surface->triangle.span(),
                            surface->normal.span()));
-  TRY(surface->mean_curvature.assign(n, 0.0));
-  TRY(surface->gaussian_curvature.assign(n, 0.0));
+  TRY(assign_in_parts(n, 0.0, &surface->mean_curvature));
+  TRY(assign_in_parts(n, 0.0, &surface->gaussian_curvature));
   Array<uint8_t> on_curve(context);
   TRY(on_curve.resize(n));
   for (size_t v = 0; v < n; ++v) on_curve[v] = surface->vertex_curve[v] != k_none;
@@ -17811,8 +17822,8 @@ static Status smooth_or_restore(Context& context, const mesh::Topology& topology
   constexpr size_t k_most_pairs = 1000;
   Array<Vec3> position(context);
   Array<uint32_t> triangle(context), pairs(context);
-  TRY(position.copy(surface->position.span()));
-  TRY(triangle.copy(surface->triangle.span()));
+  TRY(copy_in_parts(surface->position.span(), &position));
+  TRY(copy_in_parts(surface->triangle.span(), &triangle));
   for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
   const Status status = smooth_flow_surface(context, topology, method, surface);
   if (status.ok()) {
@@ -17908,7 +17919,7 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
     TRY(take_flow_vertices(flow, mesh, surface, outcome));
   }
   TRY(take_flow_curves(flow, outcome->vertex_of.span(), surface));
-  TRY(surface->constraint_normal.assign(surface->position.size(), Vec3{}));
+  TRY(assign_in_parts(surface->position.size(), Vec3{}, &surface->constraint_normal));
   TRY(context.checkpoint());
   Array<Vec3> offset(context);
   if (!settings.normal.empty()) {
@@ -17993,65 +18004,68 @@ static bool lies_before(const Vec3& a, const Vec3& b) {
   return a.z < b.z;
 }
 
-/* Unites samples whose caller's numbers agree; `order` is scratch. */
-static void weld_numbers(const Wires& wires, Array<uint32_t>* order, DisjointSets* sets) {
-  order->clear();
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    if (wires.number[i] != k_none) order->push_reserved(i);
-  }
+Status unite_numbers(const Wires& wires, DisjointSets* sets) {
+  Context& context = wires.position.context();
+  Array<uint32_t> order(context);
+  TRY(order.reserve(wires.samples()));
+  TRY(in_parts(context, wires.samples(), [&](size_t i) {
+    if (wires.number[i] != k_none) order.push_reserved(static_cast<uint32_t>(i));
+  }));
   const Span<const uint32_t> number = wires.number.span();
-  sort(order->span(), [number](uint32_t a, uint32_t b) {
+  TRY(sort_in_parts(context, order.span(), [number](uint32_t a, uint32_t b) {
     return number[a] != number[b] ? number[a] < number[b] : a < b;
+  }));
+  return in_parts(context, order.size(), [&](size_t k) {
+    if (k > 0 && number[order[k]] == number[order[k - 1]]) sets->unite(order[k], order[k - 1]);
   });
-  for (size_t k = 1; k < order->size(); ++k) {
-    if (number[(*order)[k]] == number[(*order)[k - 1]]) sets->unite((*order)[k], (*order)[k - 1]);
-  }
 }
 
 /* Unites samples at the same place. */
-static void weld_places(const Wires& wires, Array<uint32_t>* order, DisjointSets* sets) {
-  order->clear();
-  for (uint32_t i = 0; i < wires.samples(); ++i) order->push_reserved(i);
+static Status unite_places(const Wires& wires, DisjointSets* sets) {
+  Context& context = wires.position.context();
+  Array<uint32_t> order(context);
+  TRY(order.resize(wires.samples()));
+  for (uint32_t i = 0; i < wires.samples(); ++i) order[i] = i;
   const Span<const Vec3> position = wires.position.span();
-  sort(order->span(), [position](uint32_t a, uint32_t b) {
+  TRY(sort_in_parts(context, order.span(), [position](uint32_t a, uint32_t b) {
     if (position[a] != position[b]) return lies_before(position[a], position[b]);
     return a < b;
+  }));
+  return in_parts(context, order.size(), [&](size_t k) {
+    if (k > 0 && position[order[k]] == position[order[k - 1]]) sets->unite(order[k], order[k - 1]);
   });
-  for (size_t k = 1; k < order->size(); ++k) {
-    const uint32_t a = (*order)[k - 1], b = (*order)[k];
-    if (position[a] == position[b]) sets->unite(a, b);
-  }
+}
+
+Status number_points(DisjointSets* sets, Wires* wires) {
+  Context& context = wires->position.context();
+  Array<uint32_t> name(context);
+  TRY(name.assign(wires->samples(), k_none));
+  TRY(wires->point.resize(wires->samples()));
+  wires->points = 0;
+  return in_parts(context, wires->samples(), [&](size_t i) {
+    const uint32_t root = sets->find(static_cast<uint32_t>(i));  /* the least: it has its name */
+    if (name[root] == k_none) name[root] = wires->points++;
+    wires->point[i] = name[root];
+  });
 }
 
 Status weld(Wires* wires) {
-  Context& context = wires->position.context();
-  Array<uint32_t> order(context), name(context);
-  DisjointSets sets(context);
-  const uint32_t n = wires->samples();
-  TRY(order.reserve(n));
-  TRY(name.assign(n, k_none));
-  TRY(sets.reset(n));
-  TRY(wires->point.resize(n));
-  weld_numbers(*wires, &order, &sets);
-  TRY(context.checkpoint());
-  weld_places(*wires, &order, &sets);
-  wires->points = 0;
-  for (uint32_t i = 0; i < n; ++i) {
-    const uint32_t root = sets.find(i);  /* the least, so it has its name already */
-    if (name[root] == k_none) name[root] = wires->points++;
-    wires->point[i] = name[root];
-  }
-  return {};
+  DisjointSets sets(wires->position.context());
+  TRY(sets.reset(wires->samples()));
+  TRY(unite_numbers(*wires, &sets));
+  TRY(unite_places(*wires, &sets));
+  return number_points(&sets, wires);
 }
 
 Status list_members(const Wires& wires, PointMembers* members) {
   TRY(members->first.assign(wires.points + size_t{1}, 0));
   TRY(members->member.resize(wires.samples()));
-  for (uint32_t p : wires.point) ++members->first[p];
+  Context& context = wires.position.context();
+  TRY(in_parts(context, wires.samples(), [&](size_t i) { ++members->first[wires.point[i]]; }));
   starts_from_counts(members->first.span());
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    members->member[members->first[wires.point[i]]++] = i;
-  }
+  TRY(in_parts(context, wires.samples(), [&](size_t i) {
+    members->member[members->first[wires.point[i]]++] = static_cast<uint32_t>(i);
+  }));
   shift_starts_back(members->first.span());
   return {};
 }
@@ -18066,8 +18080,10 @@ Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* c
   TRY(sets.reset(wires.curves()));
   TRY(component->assign(wires.curves(), k_none));
   *counts = {wires.curves(), wires.samples(), 0, 0, 0};
+  Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
     const Span<const uint32_t> own = members[p];
+    TRY(pace.after(own.size()));
     if (own.size() > 1) ++counts->nodes;
     if (own.size() == 1 && wires.is_end(curve[own[0]], own[0])) ++counts->dangling;
     for (uint32_t i : own) sets.unite(curve[own[0]], curve[i]);
@@ -18081,15 +18097,18 @@ Status count_wires(const Wires& wires, Array<uint32_t>* component, WireCounts* c
 }
 
 Status automatic_tolerance(const Wires& wires, double diagonal, double* tolerance) {
-  Array<double> lengths(wires.position.context());
+  Context& context = wires.position.context();
+  Array<double> lengths(context);
   TRY(lengths.reserve(wires.samples()));
+  Pace pace(context);
   for (uint32_t c = 0; c < wires.curves(); ++c) {
+    TRY(pace.after(wires.size(c)));
     for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
       const uint32_t j = wires.next(c, i);
       if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
     }
   }
-  sort(lengths.span(), [](double a, double b) { return a < b; });
+  TRY(sort_in_parts(context, lengths.span(), [](double a, double b) { return a < b; }));
   const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
   *tolerance = median < 0.01 * diagonal ? median : 0.01 * diagonal;
   return {};
@@ -18171,7 +18190,9 @@ static Status link_ends(const Wires& wires, Chaining chaining, double corner,
   TRY(curve_of_samples(wires, &curve));
   TRY(partner->assign(size_t{2} * wires.curves(), k_none));
   TRY(cut.assign(size_t{2} * wires.curves(), 0));
+  Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
+    TRY(pace.after());
     const Span<const uint32_t> own = members[p];
     if (own.size() != 2) continue;
     const uint32_t c = curve[own[0]], d = curve[own[1]];
@@ -18245,6 +18266,7 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
   TRY(used.assign(wires->curves(), 0));
   TRY(reserve_wires(wires->curves(), wires->samples(), !wires->right.empty(), &result));
   result.start.push_reserved(0);
+  Pace pace(context);
   for (uint32_t c = 0; c < wires->curves(); ++c) {
     if (used[c]) continue;
     /* Back to where the chain begins, or once round. */
@@ -18259,10 +18281,10 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
       if (used[end / 2]) break;
       used[end / 2] = 1;
       append_piece(*wires, end, joined, &result);
+      TRY(pace.after(wires->size(end / 2)));
       joined = true;
     }
     finish_curve(*wires, c, closed || wires->closed[c], closed, &result);
-    if ((c + 1) % (1u << 14) == 0) TRY(context.checkpoint());
   }
   result.points = wires->points;
   *wires = static_cast<Wires&&>(result);
@@ -18281,7 +18303,9 @@ static bool is_known(const Vec3& normal) {
 
 Status orient_along(Wires* wires, Array<uint8_t>* turned, Array<Contradiction>* contradictions) {
   TRY(turned->assign(wires->samples(), 0));
+  Pace pace(turned->context());
   for (uint32_t c = 0; c < wires->curves(); ++c) {
+    TRY(pace.after(wires->size(c)));
     if (wires->sharp[c]) continue;
     uint32_t last = k_none, first = k_none;
     Vec3 carried;
@@ -18360,9 +18384,12 @@ struct Encounter {
 
 static Status list_encounters(const Wires& wires, Span<const uint32_t> curve,
                               Array<Encounter>* encounters) {
-  PointMembers members(wires.position.context());
+  Context& context = wires.position.context();
+  PointMembers members(context);
   TRY(list_members(wires, &members));
+  Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
+    TRY(pace.after(members[p].size()));
     uint32_t last = k_none;
     for (uint32_t i : members[p]) {
       if (!is_known(wires.normal[i]) || wires.sharp[curve[i]]) continue;
@@ -18372,13 +18399,35 @@ static Status list_encounters(const Wires& wires, Span<const uint32_t> curve,
       last = i;
     }
   }
-  sort(encounters->span(), [](const Encounter& x, const Encounter& y) {
+  return sort_in_parts(context, encounters->span(), [](const Encounter& x, const Encounter& y) {
     const double p = std::fabs(x.agreement), q = std::fabs(y.agreement);
     if (p != q) return p > q;
     return x.a != y.a ? x.a < y.a : x.b < y.b;
   });
+}
+
+/* Each encounter says whether two curves are opposite, the clearest first. */
+static Status relate_curves(const Wires& wires, Span<const uint32_t> curve, SignedSets* sets,
+                            Array<Contradiction>* contradictions) {
+  Array<Encounter> encounters(wires.position.context());
+  TRY(list_encounters(wires, curve, &encounters));
+  Pace pace(wires.position.context());
+  for (const Encounter& e : encounters) {
+    TRY(pace.after());
+    bool a = false, b = false;
+    const uint32_t x = sets->find(curve[e.a], &a), y = sets->find(curve[e.b], &b);
+    const bool differ = (e.agreement < 0.0) != (a != b);
+    if (x != y) {
+      sets->unite(x, y, differ);
+    } else if (differ) {
+      TRY(contradictions->push({wires.origin[e.a], wires.origin[e.b],
+                                angle_between(wires.normal[e.a], wires.normal[e.b])}));
+    }
+  }
   return {};
 }
+
+namespace {
 
 /* What the samples of a component say about its sign. */
 struct Vote {
@@ -18386,58 +18435,75 @@ struct Vote {
   uint32_t samples = 0;
   Vec3 sum;          /* of positions */
   double out = 0.0;  /* how much normals point away from the middle */
+
+  /* Where neither sign has twice as many samples, that one wins which points away from the middle. */
+  bool for_turning() const {
+    const bool undecided = kept < 2 * uint64_t{turned} && turned < 2 * uint64_t{kept};
+    return undecided ? out < 0.0 : kept < turned;
+  }
 };
 
-Status orient_across(Wires* wires, Span<uint8_t> turned, Array<Contradiction>* contradictions) {
-  Context& context = wires->position.context();
-  Array<uint32_t> curve(context);
-  Array<Encounter> encounters(context);
-  Array<Vote> votes(context);
-  SignedSets sets(context);
-  TRY(curve_of_samples(*wires, &curve));
-  TRY(list_encounters(*wires, curve.span(), &encounters));
-  TRY(sets.reset(wires->curves()));
-  TRY(votes.assign(wires->curves(), Vote{}));
-  for (const Encounter& e : encounters) {
-    bool a = false, b = false;
-    const uint32_t x = sets.find(curve[e.a], &a), y = sets.find(curve[e.b], &b);
-    const bool differ = (e.agreement < 0.0) != (a != b);
-    if (x != y) {
-      sets.unite(x, y, differ);
-    } else if (differ) {
-      TRY(contradictions->push({wires->origin[e.a], wires->origin[e.b],
-                                angle_between(wires->normal[e.a], wires->normal[e.b])}));
-    }
-  }
-  for (uint32_t i = 0; i < wires->samples(); ++i) {
-    bool opposite = false;
-    Vote& vote = votes[sets.find(curve[i], &opposite)];
-    vote.sum += wires->position[i];
-    ++vote.samples;
-    if (!is_known(wires->normal[i]) || wires->sharp[curve[i]]) continue;
-    if (opposite) {
-      wires->normal[i] = -wires->normal[i];
-      turned[i] ^= 1;
-    }
-    ++(turned[i] ? vote.turned : vote.kept);
-  }
-  for (uint32_t i = 0; i < wires->samples(); ++i) {
-    bool opposite = false;
-    Vote& vote = votes[sets.find(curve[i], &opposite)];
-    if (wires->sharp[curve[i]]) continue;
-    vote.out += dot(wires->position[i] - (1.0 / vote.samples) * vote.sum, wires->normal[i]);
-  }
-  for (uint32_t i = 0; i < wires->samples(); ++i) {
-    bool opposite = false;
-    const Vote& vote = votes[sets.find(curve[i], &opposite)];
-    if (!is_known(wires->normal[i]) || wires->sharp[curve[i]]) continue;
-    const bool undecided =
-        vote.kept < 2 * uint64_t{vote.turned} && vote.turned < 2 * uint64_t{vote.kept};
-    if (undecided ? !(vote.out < 0.0) : vote.kept >= vote.turned) continue;
+/* Normals of components whose curves agree, and what their samples say. */
+struct Election {
+  Wires* wires;
+  Span<uint8_t> turned;
+  Array<uint32_t> curve;  /* of each sample */
+  SignedSets sets;        /* of curves */
+  Array<Vote> votes;      /* of the first curve of each set */
+
+  Election(Wires* of, Span<uint8_t> before)
+      : wires(of),
+        turned(before),
+        curve(of->position.context()),
+        sets(of->position.context()),
+        votes(of->position.context()) {}
+
+  Vote& vote_of(uint32_t i, bool* opposite) { return votes[sets.find(curve[i], opposite)]; }
+  bool decides(uint32_t i) const { return is_known(wires->normal[i]) && !wires->sharp[curve[i]]; }
+  void turn(uint32_t i) {
     wires->normal[i] = -wires->normal[i];
     turned[i] ^= 1;
   }
-  return {};
+};
+
+}  /* namespace */
+
+/* Gives all normals of a component the sign of its first curve, and counts what becomes of them. */
+static Status count_votes(Election* e) {
+  Context& context = e->curve.context();
+  const Wires& wires = *e->wires;
+  TRY(in_parts(context, wires.samples(), [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s);
+    bool opposite = false;
+    Vote& vote = e->vote_of(i, &opposite);
+    vote.sum += wires.position[i];
+    ++vote.samples;
+    if (!e->decides(i)) return;
+    if (opposite) e->turn(i);
+    ++(e->turned[i] ? vote.turned : vote.kept);
+  }));
+  return in_parts(context, wires.samples(), [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s);
+    bool opposite = false;
+    Vote& vote = e->vote_of(i, &opposite);
+    if (wires.sharp[e->curve[i]]) return;
+    vote.out += dot(wires.position[i] - (1.0 / vote.samples) * vote.sum, wires.normal[i]);
+  });
+}
+
+Status orient_across(Wires* wires, Span<uint8_t> turned, Array<Contradiction>* contradictions) {
+  Election election(wires, turned);
+  TRY(curve_of_samples(*wires, &election.curve));
+  TRY(election.sets.reset(wires->curves()));
+  TRY(election.votes.assign(wires->curves(), Vote{}));
+  TRY(relate_curves(*wires, election.curve.span(), &election.sets, contradictions));
+  TRY(count_votes(&election));
+  return in_parts(election.curve.context(), wires->samples(), [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s);
+    bool opposite = false;
+    const Vote& vote = election.vote_of(i, &opposite);
+    if (election.decides(i) && vote.for_turning()) election.turn(i);
+  });
 }
 
 }  /* namespace wireskin::network */
@@ -18515,7 +18581,9 @@ static void fill_curve(uint32_t c, Span<Vec3> carried, Wires* wires) {
 Status fill_along(Wires* wires, FillCounts* counts) {
   Array<Vec3> carried(wires->position.context());
   TRY(carried.assign(wires->samples(), Vec3{}));
+  Pace pace(wires->position.context());
   for (uint32_t c = 0; c < wires->curves(); ++c) {
+    TRY(pace.after(wires->size(c)));
     const uint32_t known = count_known(*wires, c);
     if (wires->sharp[c] || known == 0 || known == wires->size(c)) continue;
     fill_curve(c, carried.span(), wires);
@@ -18543,10 +18611,12 @@ Status fill_from_nodes(Wires* wires, FillCounts* counts) {
   TRY(curve_of_samples(*wires, &curve));
   TRY(carried.assign(wires->samples(), Vec3{}));
   TRY(mean.resize(wires->points));
-  for (uint32_t p = 0; p < wires->points; ++p) {
-    mean[p] = mean_normal(*wires, curve.span(), members[p]);
-  }
+  TRY(in_parts(context, wires->points, [&](size_t p) {
+    mean[p] = mean_normal(*wires, curve.span(), members[static_cast<uint32_t>(p)]);
+  }));
+  Pace pace(context);
   for (uint32_t c = 0; c < wires->curves(); ++c) {
+    TRY(pace.after(wires->size(c)));
     if (wires->sharp[c] || count_known(*wires, c) != 0) continue;
     const uint32_t first = wires->start[c], end = wires->start[c + 1];
     for (uint32_t i = first; i < end; ++i) wires->normal[i] = mean[wires->point[i]];
@@ -18571,8 +18641,10 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
   Array<uint32_t> curve(context);
   TRY(list_members(*wires, &members));
   TRY(curve_of_samples(*wires, &curve));
+  Pace pace(context);
   for (uint32_t p = 0; p < wires->points; ++p) {
     const Span<const uint32_t> own = members[p];
+    TRY(pace.after(own.size()));
     if (own.size() < 2) continue;
     const Vec3 mean = mean_normal(*wires, curve.span(), own);
     bool unite = joined[p] && mean != Vec3{};
@@ -18788,16 +18860,17 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
   found.at_a = point_of_place(wires, edges.curve[a], found.a);
   found.at_b = point_of_place(wires, edges.curve[b], found.b);
   found.distance = length(found.at_a - found.at_b);
-  /* Drawings have less than one for a sample, with every line drawn many times a few; but all lines */
-  /* of a lattice cross. */
-  constexpr uint64_t k_most_for_a_sample = 16;
-  const uint64_t pairs_of_curves = uint64_t{wires.curves()} * wires.curves() / 2;
-  if (approaches->size() > k_most_for_a_sample * wires.samples() + pairs_of_curves) {
-    return fail(Code::bad_argument,
-                "the curves come within the snapping tolerance of each other in too many places: "
-                "give a smaller one");
-  }
   return approaches->push(found);
+}
+
+/* Drawings have less than one for a sample, with every line drawn many times a few. All lines of a */
+/* lattice cross, however few their samples; but thousands of curves that all come near each other */
+/* are a tangle. */
+static size_t most_approaches(const Wires& wires) {
+  constexpr uint64_t k_most_for_a_sample = 16, k_most_of_a_lattice = 1u << 18;
+  const uint64_t pairs = uint64_t{wires.curves()} * wires.curves() / 2;
+  return static_cast<size_t>(k_most_for_a_sample * wires.samples() +
+                             (pairs < k_most_of_a_lattice ? pairs : k_most_of_a_lattice));
 }
 
 /* Rounding must not part boxes of edges that just reach each other. */
@@ -18816,7 +18889,7 @@ static Box box_of_edge(const Vec3& p, const Vec3& q, double margin) {
 
 Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double reach,
                        Array<Approach>* approaches) {
-  constexpr size_t k_work_per_checkpoint = 4096;
+  constexpr size_t k_steps_of_search = 8;
   Context& context = wires.position.context();
   const EdgeSet edges = {wires, curve};
   Array<double> bulge(context);
@@ -18835,15 +18908,19 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
     sample.push_reserved(i);
   }));
   TRY(tree.build(box.span()));
-  size_t work = 0;
+  const size_t most = most_approaches(wires);
+  Pace pace(context);
   for (uint32_t e = 0; e < box.size(); ++e) {
     TRY(tree.find(box[e], e, &near));
-    work += 8;
+    TRY(pace.after(k_steps_of_search));
     for (const uint32_t other : near) {
       TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
-      if (++work < k_work_per_checkpoint) continue;
-      work = 0;
-      TRY(context.checkpoint());
+      TRY(pace.after());
+    }
+    if (approaches->size() > most) {
+      return fail(Code::bad_argument,
+                  "the curves come within the snapping tolerance of each other in too many places: "
+                  "give a smaller one");
     }
   }
   return {};
@@ -19054,10 +19131,14 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
 Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
                          SnapResult* result) {
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
+  constexpr size_t k_steps_of_join = 512;  /* it may pass all joints of an edge */
+  Pace pace(context());
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
-      if (plan.pass[k] == now) TRY(join(approaches[k], plan.beside[k] != 0, result));
-      if (k % 64 == 63) TRY(context().checkpoint());
+      TRY(pace.after());
+      if (plan.pass[k] != now) continue;
+      TRY(join(approaches[k], plan.beside[k] != 0, result));
+      TRY(pace.after(k_steps_of_join));
     }
   }
   return {};
@@ -19072,19 +19153,20 @@ Status Snapper::count_open(Span<const Approach> approaches, Span<const uint8_t> 
   DisjointSets joined(context());
   Array<Pair> pairs(context());
   TRY(joined.reset(wires().curves()));
-  for (uint32_t b = 0; b < beads_.bead.size(); ++b) {
+  TRY(in_parts(context(), beads_.bead.size(), [&](size_t i) {
+    const uint32_t b = static_cast<uint32_t>(i);
     joined.unite(beads_.curve_of(b), beads_.curve_of(beads_.bead[b].ring));
-  }
+  }));
   TRY(pairs.reserve(approaches.size()));
-  for (size_t k = 0; k < approaches.size(); ++k) {
+  TRY(in_parts(context(), approaches.size(), [&](size_t k) {
     const Approach& approach = approaches[k];
-    if (beside[k]) continue;
+    if (beside[k]) return;
     const uint32_t a = joined.find(beads_.curve[approach.a.edge]);
     const uint32_t b = joined.find(beads_.curve[approach.b.edge]);
     if (a != b) pairs.push_reserved(a < b ? Pair{a, b} : Pair{b, a});
-  }
+  }));
   const auto less = [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; };
-  sort(pairs.span(), less);
+  TRY(sort_in_parts(context(), pairs.span(), less));
   *open = 0;
   for (size_t k = 0; k < pairs.size(); ++k) *open += k == 0 || less(pairs[k - 1], pairs[k]);
   return {};
@@ -19098,12 +19180,13 @@ Status Snapper::run(SnapResult* result) {
   complete_ = counts.dangling == 0 && counts.components == 1;
   const double reach = (complete_ ? k_crossing_in_complete : 1.0) * tolerance_;
   TRY(find_approaches(wires(), beads_.curve.span(), reach, &approaches));
-  sort(approaches.span(), [](const Approach& p, const Approach& q) {
+  const auto nearer = [](const Approach& p, const Approach& q) {
     if (p.distance != q.distance) return p.distance < q.distance;
     if (p.a.edge != q.a.edge) return p.a.edge < q.a.edge;
     if (p.b.edge != q.b.edge) return p.b.edge < q.b.edge;
     return p.a.part != q.a.part ? p.a.part < q.a.part : p.b.part < q.b.part;
-  });
+  };
+  TRY(sort_in_parts(context(), approaches.span(), nearer));
   TRY(beads_.string_samples(approaches.size()));
   TRY(best_.assign(beads_.room(), 0.0));
   TRY(stamp_.assign(beads_.room(), 0));
@@ -19112,7 +19195,7 @@ Status Snapper::run(SnapResult* result) {
   TRY(count_open(approaches.span(), plan.beside.span(), &result->open_before));
   exact_ = plan.exact;
   TRY(join_all(approaches.span(), plan, result));
-  beads_.unite_close(k_one_node * tolerance_);
+  TRY(beads_.unite_close(k_one_node * tolerance_));
   return count_open(approaches.span(), plan.beside.span(), &result->open_after);
 }
 
@@ -19141,7 +19224,9 @@ static Status check_numbers(const Wires& wires, double tolerance) {
   PointMembers members(context);
   TRY(list_members(wires, &members));
   const double limit = tolerance > k_same_place ? tolerance : k_same_place;
+  Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
+    TRY(pace.after(members[p].size()));
     for (uint32_t i : members[p]) {
       if (length(wires.position[i] - wires.position[members[p][0]]) <= limit) continue;
       Place place;
@@ -19161,13 +19246,12 @@ static Status find_new_points(const Wires& wires, Array<uint8_t>* joined) {
   TRY(joined->assign(wires.points, 0));
   Array<uint8_t> seen(wires.position.context());
   TRY(seen.assign(wires.points, 0));
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
+  return in_parts(wires.position.context(), wires.samples(), [&](size_t i) {
     const uint32_t p = wires.point[i];
     if (seen[p] && (number[p] != wires.number[i] || number[p] == k_none)) (*joined)[p] = 1;
     number[p] = wires.number[i];
     seen[p] = 1;
-  }
-  return {};
+  });
 }
 
 static Status complete_normals(const ConnectOptions& options, Wires* wires, ConnectResult* result) {
@@ -19236,13 +19320,13 @@ static Status number_nodes(Context& context, const network::Wires& wires, NodeNu
   TRY(members.assign(wires.points, 0));
   TRY(used.reserve(wires.samples()));
   TRY(numbers->of_sample.resize(wires.samples()));
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
+  TRY(in_parts(context, wires.samples(), [&](size_t i) {
     uint32_t& number = least_number[wires.point[i]];
     number = wires.number[i] < number ? wires.number[i] : number;
     ++members[wires.point[i]];
     if (wires.number[i] != k_none) used.push_reserved(wires.number[i]);
-  }
-  sort(used.span(), [](uint32_t a, uint32_t b) { return a < b; });
+  }));
+  TRY(sort_in_parts(context, used.span(), [](uint32_t a, uint32_t b) { return a < b; }));
   /* Above all of the caller's where there is room, else in the gaps between them. */
   const uint32_t most = used.empty() ? 0 : used.back();
   uint32_t next = used.empty() ? 0 : most < k_none - 1 - wires.points ? most + 1 : 0;
@@ -19254,11 +19338,10 @@ static Status number_nodes(Context& context, const network::Wires& wires, NodeNu
     numbers->most_fresh = next;
     least_number[p] = next++;
   }
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
+  return in_parts(context, wires.samples(), [&](size_t i) {
     const uint32_t p = wires.point[i];
     numbers->of_sample[i] = members[p] < 2 ? wires.number[i] : least_number[p];
-  }
-  return {};
+  });
 }
 
 /* Normals that did not change leave as they came: not made unit, or another call would make them */
@@ -19384,27 +19467,27 @@ static void write_normals(const network::Wires& wires, const NetworkLayout& layo
   right[3 * i] = r.x, right[3 * i + 1] = r.y, right[3 * i + 2] = r.z;
 }
 
-static void write_samples(const network::Wires& wires, const NodeNumbers& numbers,
-                          const NetworkLayout& layout, const wsk_curve* given, unsigned char* block,
-                          wsk_network_view* view) {
+static Status write_samples(const network::Wires& wires, const NodeNumbers& numbers,
+                            const NetworkLayout& layout, const wsk_curve* given,
+                            unsigned char* block, wsk_network_view* view) {
   uint32_t* nodes = reinterpret_cast<uint32_t*>(block + layout.nodes);
   uint32_t* given_curve = reinterpret_cast<uint32_t*>(block + layout.given_curve);
   uint32_t* given_sample = reinterpret_cast<uint32_t*>(block + layout.given_sample);
   double* given_part = reinterpret_cast<double*>(block + layout.given_part);
-  for (uint32_t i = 0; i < wires.samples(); ++i) {
-    const network::Origin& origin = wires.origin[i];
-    write_normals(wires, layout, given, i, block);
-    nodes[i] = numbers.of_sample[i];
-    given_curve[i] = origin.curve;
-    given_sample[i] = origin.sample;
-    given_part[i] = origin.part;
-  }
   uint32_t* first = reinterpret_cast<uint32_t*>(block + layout.first);
-  for (size_t c = 0; c < wires.start.size(); ++c) first[c] = wires.start[c];
   view->first_sample = first;
   view->given_curve = given_curve;
   view->given_sample = given_sample;
   view->given_part = given_part;
+  for (size_t c = 0; c < wires.start.size(); ++c) first[c] = wires.start[c];
+  return in_parts(wires.origin.context(), wires.samples(), [&](size_t i) {
+    const network::Origin& origin = wires.origin[i];
+    write_normals(wires, layout, given, static_cast<uint32_t>(i), block);
+    nodes[i] = numbers.of_sample[i];
+    given_curve[i] = origin.curve;
+    given_sample[i] = origin.sample;
+    given_part[i] = origin.part;
+  });
 }
 
 Status make_network(Context& context, const network::Wires& wires,
@@ -19431,7 +19514,7 @@ Status make_network(Context& context, const network::Wires& wires,
   view.sample_count = wires.samples();
   const double* positions = nullptr;  /* the curves point into them */
   TRY(write_vectors(context, wires.position.span(), lengths, block + layout.positions, &positions));
-  write_samples(wires, numbers, layout, given, block, &view);
+  TRY(write_samples(wires, numbers, layout, given, block, &view));
   view.curves = write_curves(wires, layout, block);
   write_events(result, lengths, layout, block, &view);
   return context.progress(1.0);
@@ -19473,9 +19556,10 @@ static Status count_raw_samples(const Kind* curves, size_t count, size_t* total)
   return {};
 }
 
-static Status read_raw_curve(const wsk_curve& curve, uint32_t index, bool sharp,
+static Status read_raw_curve(const wsk_curve& curve, uint32_t index, bool sharp, Pace* pace,
                              network::Wires* wires) {
   for (uint32_t i = 0; i < curve.sample_count; ++i) {
+    TRY(pace->after());
     const Place place = sample_place(index, i);
     Vec3 position, normal, right;
     TRY(read_position({curve.positions, curve.position_stride}, i, place, &position));
@@ -19515,7 +19599,8 @@ Status read_raw_curves(const wsk_curve* curves, size_t count, network::Wires* wi
   TRY(network::reserve_wires(static_cast<uint32_t>(count), static_cast<uint32_t>(total), sharp,
                              wires));
   wires->start.push_reserved(0);
-  for (uint32_t c = 0; c < count; ++c) TRY(read_raw_curve(curves[c], c, sharp, wires));
+  Pace pace(wires->position.context());
+  for (uint32_t c = 0; c < count; ++c) TRY(read_raw_curve(curves[c], c, sharp, &pace, wires));
   return {};
 }
 
@@ -19550,7 +19635,9 @@ static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
     return fail(Code::bad_argument, "the curve has no arc lengths or no tangents",
                 curve_place(index));
   }
+  Pace pace(sensor->arc.context());
   for (uint32_t i = 0; i < curve.sample_count; ++i) {
+    TRY(pace.after());
     TRY(read_sensor_sample(curve, index, i, sensor));
   }
   network::Wires& wires = sensor->wires;
@@ -20153,11 +20240,8 @@ Status add_curve(const Samples& samples, Curves* curves) {
 }
 
 CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s) {
-  size_t low = first, high = last;
-  while (high - low > 1) {
-    const size_t middle = low + (high - low) / 2;
-    (curve.arc[middle] <= s ? low : high) = middle;
-  }
+  const size_t low =
+      last_holding(size_t{first}, size_t{last}, [&](size_t i) { return curve.arc[i] <= s; });
   const double inside = s - curve.arc[low];
   const double whole = curve.arc[low + 1] - curve.arc[low];
   double t = curve.position.knot[low];
@@ -20919,9 +21003,10 @@ static Status take_slots(DelaunayBuilder* b) {
     return fail(Code::too_large, "the Delaunay triangulation has more tetrahedra than allowed");
   }
   TRY(make_room_in_parts(missing, &b->tets));
+  TRY(make_room_in_parts(missing, &b->mark));
   for (size_t i = 0; i < missing; ++i) {
     b->tets.push_reserved({});
-    TRY(b->mark.push(k_unseen));
+    b->mark.push_reserved(k_unseen);
   }
   for (size_t i = 0; i < b->outline.size(); ++i) {
     if (i < missing) {
@@ -21090,7 +21175,6 @@ static Status check_coordinates(Span<const Vec3> points) {
 
 Status triangulate(Context& context, Span<const Vec3> points, uint32_t most_tets,
                    Delaunay* delaunay) {
-  constexpr size_t k_work_per_checkpoint = 4096;
   TRY(check_coordinates(points));
   delaunay->tets.clear();
   Array<uint32_t> order(context);
@@ -21106,13 +21190,10 @@ Status triangulate(Context& context, Span<const Vec3> points, uint32_t most_tets
   TRY(b.tets.reserve(8 * order.size()));
   TRY(b.mark.reserve(8 * order.size()));
   TRY(begin_with_simplex(&b));
-  size_t work = 0;
+  Pace pace(context);
   for (uint32_t vertex = 4; vertex < order.size(); ++vertex) {
     TRY(insert_point(&b, vertex));
-    work += b.cavity.size() + b.outline.size();
-    if (work < k_work_per_checkpoint) continue;
-    work = 0;
-    TRY(context.checkpoint());
+    TRY(pace.after(b.cavity.size() + b.outline.size()));
   }
   return finish(context, &b, order.span(), delaunay);
 }
@@ -21281,22 +21362,10 @@ namespace wireskin::flow {
 
 namespace {
 
-struct Box {
-  Vec3 low, high;
-};
-
-/* Of passes over the cells, most of which are empty. */
-constexpr size_t k_cells_per_checkpoint = 1u << 18;
-
-/* Cells of a uniform grid along each axis. */
-struct CrossingGrid {
-  Vec3 low;
-  double per_cell = 0.0;
-  uint32_t size[3] = {1, 1, 1};
-};
-
-struct CellRange {
-  uint32_t low[3], high[3];
+/* A place, and the side of a triangle's plane that it is on. */
+struct SidedPoint {
+  const Vec3& at;
+  int side;
 };
 
 }  /* namespace */
@@ -21350,13 +21419,13 @@ static bool segment_meets_flat(const Vec3& p, const Vec3& q, const Vec3& a, cons
   return inside;
 }
 
-/* Whether the closed segment has a point in the closed triangle, on whose sides its ends are. */
-static bool segment_meets(const Vec3& p, int p_side, const Vec3& q, int q_side, const Vec3& a,
-                          const Vec3& b, const Vec3& c) {
-  if (p_side * q_side > 0) return false;
-  if (p_side == 0 && q_side == 0) return segment_meets_flat(p, q, a, b, c);
-  const int ab = sign_of(orient3d(p, q, a, b)), bc = sign_of(orient3d(p, q, b, c));
-  const int ca = sign_of(orient3d(p, q, c, a));
+/* Whether the closed segment has a point in the closed triangle. */
+static bool segment_meets(const SidedPoint& p, const SidedPoint& q, const Vec3& a, const Vec3& b,
+                          const Vec3& c) {
+  if (p.side * q.side > 0) return false;
+  if (p.side == 0 && q.side == 0) return segment_meets_flat(p.at, q.at, a, b, c);
+  const int ab = sign_of(orient3d(p.at, q.at, a, b)), bc = sign_of(orient3d(p.at, q.at, b, c));
+  const int ca = sign_of(orient3d(p.at, q.at, c, a));
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
@@ -21373,9 +21442,9 @@ static bool repeats_corner(const uint32_t* t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/* The sides of a triangle's plane that the corners of another are on; false where all are on one, */
-/* and the two have no point in common (T. Moeller, "A Fast Triangle-Triangle Intersection Test", */
-/* 1997). */
+/* The sides of a triangle's plane that the corners of another are on; false where all are off it on */
+/* one side, and the two have no point in common (T. Moeller, "A Fast Triangle-Triangle Intersection */
+/* Test", 1997). */
 static bool reaches_plane(const Vec3* position, const uint32_t* triangle, const uint32_t* plane,
                           int* side) {
   const Vec3 &a = position[plane[0]], &b = position[plane[1]], &c = position[plane[2]];
@@ -21389,8 +21458,24 @@ static bool edges_meet(const Vec3* position, const uint32_t* edges, const int* s
   const Vec3 &a = position[triangle[0]], &b = position[triangle[1]], &c = position[triangle[2]];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t next = (k + 1) % 3;
-    const Vec3 &p = position[edges[k]], &q = position[edges[next]];
-    if (segment_meets(p, side[k], q, side[next], a, b, c)) return true;
+    const SidedPoint p = {position[edges[k]], side[k]}, q = {position[edges[next]], side[next]};
+    if (segment_meets(p, q, a, b, c)) return true;
+  }
+  return false;
+}
+
+/* Of two triangles that share a corner, number at[i] of t[i]: whether the edge opposite to it in */
+/* one of them meets the other. */
+static bool cross_beyond_corner(const Vec3* position, const uint32_t* const* t,
+                                const uint32_t* at) {
+  for (int k = 0; k < 2; ++k) {
+    const uint32_t *edge = t[k], *plane = t[1 - k];
+    const Vec3 &a = position[plane[0]], &b = position[plane[1]], &c = position[plane[2]];
+    const Vec3 &u = position[edge[(at[k] + 1) % 3]], &v = position[edge[(at[k] + 2) % 3]];
+    const SidedPoint p = {u, sign_of(orient3d(a, b, c, u))}, q = {v, sign_of(orient3d(a, b, c, v))};
+    /* Then the whole triangle is on one side of the other's plane, but for the corner. */
+    if (p.side * q.side > 0) return false;
+    if (segment_meets(p, q, a, b, c)) return true;
   }
   return false;
 }
@@ -21415,15 +21500,7 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
   if (shared == 1) {
     const uint32_t* const t[2] = {a, b};
     const uint32_t at[2] = {at_a, at_b};
-    for (int k = 0; k < 2; ++k) {
-      const Vec3 &u = p[t[k][(at[k] + 1) % 3]], &v = p[t[k][(at[k] + 2) % 3]];
-      const Vec3 &d = p[t[1 - k][0]], &e = p[t[1 - k][1]], &f = p[t[1 - k][2]];
-      const int u_side = sign_of(orient3d(d, e, f, u)), v_side = sign_of(orient3d(d, e, f, v));
-      /* On one side of the other's plane, but for the corner that they share. */
-      if (u_side * v_side > 0) return false;
-      if (segment_meets(u, u_side, v, v_side, d, e, f)) return true;
-    }
-    return false;
+    return cross_beyond_corner(p, t, at);
   }
   int side_of_a[3], side_of_b[3];
   if (!reaches_plane(p, a, b, side_of_a) || !reaches_plane(p, b, a, side_of_b)) return false;
@@ -21431,6 +21508,25 @@ bool triangles_cross(Span<const Vec3> position, const uint32_t* a, const uint32_
 }
 
 /* ---- All triangles ------------------------------------------------------------------------------ */
+
+namespace {
+
+struct Box {
+  Vec3 low, high;
+};
+
+/* Cells of a uniform grid along each axis. */
+struct CrossingGrid {
+  Vec3 low;
+  double per_cell = 0.0;
+  uint32_t size[3] = {1, 1, 1};
+};
+
+struct CellRange {
+  uint32_t low[3], high[3];
+};
+
+}  /* namespace */
 
 static Box box_of(Span<const Vec3> position, const uint32_t* t) {
   Box box = {position[t[0]], position[t[0]]};
@@ -21506,66 +21602,96 @@ static Status choose_grid(Context& context, Span<const Vec3> position,
   return {};
 }
 
-/* Turns the counts of cells into their starts. */
-static Status start_cells(Context& context, Span<uint32_t> start) {
+namespace {
+
+/* The triangles at each cell, by number. */
+struct TriangleCells {
+  Span<const Vec3> position;
+  Span<const uint32_t> triangle;
+  CrossingGrid grid;
+  Array<uint32_t> start, item;  /* of cell c: item[start[c] .. start[c + 1]) */
+  Array<uint32_t> met;          /* of each triangle: for which other it was met last */
+  Pace pace;
+
+  TriangleCells(Context& context, Span<const Vec3> at, Span<const uint32_t> triangles)
+      : position(at),
+        triangle(triangles),
+        start(context),
+        item(context),
+        met(context),
+        pace(context) {}
+
+  uint32_t count() const { return static_cast<uint32_t>(triangle.size() / 3); }
+  const uint32_t* corners(uint32_t t) const { return &triangle[3 * size_t{t}]; }
+  Box box(uint32_t t) const { return box_of(position, corners(t)); }
+  CellRange range(uint32_t t) const { return cells_of(grid, box(t)); }
+};
+
+}  /* namespace */
+
+/* Counts the triangles at each cell, then lists them. Most cells are empty, and a pass over them */
+/* takes next to no time for each. */
+static Status fill_cells(Context& context, TriangleCells* cells) {
+  Array<uint32_t>&start = cells->start, &item = cells->item;
+  const CrossingGrid& grid = cells->grid;
+  TRY(assign_in_parts(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1, 0, &start));
+  for (uint32_t t = 0; t < cells->count(); ++t) {
+    TRY(each_cell(grid, cells->range(t), &cells->pace, [&](uint32_t cell) { ++start[cell]; }));
+  }
   uint32_t sum = 0;
-  return in_parts<k_cells_per_checkpoint>(context, start.size(), [&](size_t i) {
+  TRY(in_parts<k_light_steps_per_checkpoint>(context, start.size(), [&](size_t i) {
     const uint32_t count = start[i];
     start[i] = sum;
     sum += count;
+  }));
+  TRY(item.resize(sum));
+  TRY(context.checkpoint());
+  for (uint32_t t = 0; t < cells->count(); ++t) {
+    const auto add = [&](uint32_t cell) { item[start[cell]++] = t; };
+    TRY(each_cell(grid, cells->range(t), &cells->pace, add));
+  }
+  shift_starts_back(start.span());
+  return context.checkpoint();
+}
+
+/* The triangles before t whose boxes meet its own, each once. */
+static Status gather_near(uint32_t t, TriangleCells* cells, Array<uint32_t>* near) {
+  constexpr size_t k_items_of_step = 4;
+  const Box box = cells->box(t);
+  near->clear();
+  return each_cell(cells->grid, cells_of(cells->grid, box), &cells->pace, [&](uint32_t cell) {
+    const uint32_t first = cells->start[cell], end = cells->start[cell + 1];
+    cells->pace.add((end - first) / k_items_of_step);  /* triangles that lie close: many in some */
+    for (uint32_t i = first; i < end; ++i) {
+      const uint32_t other = cells->item[i];
+      if (other >= t || cells->met[other] == t) continue;
+      cells->met[other] = t;
+      if (!apart(box, cells->box(other))) near->push_reserved(other);
+    }
   });
 }
 
 Status find_crossings(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
                       size_t most, Array<uint32_t>* pairs) {
-  constexpr size_t k_steps_of_pair = 4, k_items_of_step = 4;
+  constexpr size_t k_steps_of_pair = 4;
   pairs->clear();
   if (triangle.empty()) return {};
-  const uint32_t count = static_cast<uint32_t>(triangle.size() / 3);
-  CrossingGrid grid;
-  Array<uint32_t> start(context), item(context), met(context);
-  TRY(choose_grid(context, position, triangle, &grid));
-  TRY(start.resize(size_t{grid.size[0]} * grid.size[1] * grid.size[2] + 1));
-  TRY(in_parts<k_cells_per_checkpoint>(context, start.size(), [&](size_t i) { start[i] = 0; }));
-  TRY(context.checkpoint());
-  TRY(met.assign(count, k_none));
-  const auto range_of = [&](uint32_t t) {
-    return cells_of(grid, box_of(position, &triangle[3 * size_t{t}]));
-  };
-  Pace pace(context);
-  for (uint32_t t = 0; t < count; ++t) {
-    TRY(each_cell(grid, range_of(t), &pace, [&](uint32_t cell) { ++start[cell]; }));
-  }
-  TRY(start_cells(context, start.span()));
-  TRY(item.resize(start.back()));
-  TRY(context.checkpoint());
-  for (uint32_t t = 0; t < count; ++t) {
-    TRY(each_cell(grid, range_of(t), &pace, [&](uint32_t cell) { item[start[cell]++] = t; }));
-  }
-  shift_starts_back(start.span());
-  TRY(context.checkpoint());
+  TriangleCells cells(context, position, triangle);
+  const uint32_t count = cells.count();
+  Array<uint32_t> near(context);
+  TRY(choose_grid(context, position, triangle, &cells.grid));
+  TRY(fill_cells(context, &cells));
+  TRY(assign_in_parts(count, k_none, &cells.met));
+  TRY(near.reserve(count));
   TRY(pairs->reserve(most < count ? 2 * most : 2 * size_t{count}));
   for (uint32_t t = 0; t < count && pairs->size() < 2 * most; ++t) {
-    const Box box = box_of(position, &triangle[3 * size_t{t}]);
-    Array<uint32_t>& found = *pairs;
-    Status status;
-    TRY(each_cell(grid, cells_of(grid, box), &pace, [&](uint32_t cell) {
-      /* Triangles that lie close are many in some cells. */
-      pace.add((start[cell + 1] - start[cell]) / k_items_of_step);
-      for (uint32_t i = start[cell]; i < start[cell + 1]; ++i) {
-        const uint32_t other = item[i];
-        if (other >= t || met[other] == t) continue;
-        met[other] = t;
-        const uint32_t* const corners = &triangle[3 * size_t{other}];
-        if (apart(box, box_of(position, corners))) continue;
-        if (status.ok()) status = pace.after(k_steps_of_pair);
-        if (!status.ok()) return;
-        if (!triangles_cross(position, corners, &triangle[3 * size_t{t}])) continue;
-        if (status.ok()) status = found.push(other);
-        if (status.ok()) status = found.push(t);
-      }
-    }));
-    TRY(status);
+    TRY(gather_near(t, &cells, &near));
+    for (const uint32_t other : near) {
+      TRY(cells.pace.after(k_steps_of_pair));
+      if (!triangles_cross(position, cells.corners(other), cells.corners(t))) continue;
+      TRY(pairs->push(other));
+      TRY(pairs->push(t));
+    }
   }
   return {};
 }
@@ -22611,12 +22737,8 @@ static LoopRun segment_step(const Complex& complex, const CurveEdges& curves,
   /* The arc is the one whose range holds the place; segments of one arc come in a row. */
   uint32_t arc = arc_hint;
   if (arc == k_none || i < samples.start[arc] || i >= samples.start[arc + 1]) {
-    uint32_t low = 0, high = static_cast<uint32_t>(samples.start.size() - 1);
-    while (low + 1 < high) {
-      const uint32_t middle = low + (high - low) / 2;
-      (samples.start[middle] <= i ? low : high) = middle;
-    }
-    arc = low;
+    const uint32_t arcs = static_cast<uint32_t>(samples.start.size() - 1);
+    arc = last_holding(0u, arcs, [&](uint32_t a) { return samples.start[a] <= i; });
   }
   const bool forward = complex.same_as[samples.at[i]] == u;
   return forward ? LoopRun{arc, i, i + 1} : LoopRun{arc, i + 1, i};
@@ -22743,6 +22865,7 @@ Status find_loops(const Complex& complex, const CurveEdges& curves, const Sample
 namespace wireskin::mesh {
 
 static constexpr double k_grading = 0.25;
+static constexpr size_t k_steps_of_edge = 2;  /* and of a star */
 /* Edges above the first share of the wished size are split, unless the midpoint would come nearer */
 /* than the second share to an opposite vertex. */
 static constexpr double k_long_edge = 1.35;
@@ -22770,7 +22893,7 @@ struct LoopRefinement {
   Span<const uint32_t> name;  /* of the held points; empty: all are different */
   Array<uint8_t> copied;      /* of the held points: another has the same name */
   bool may_relax = true;
-  size_t work = 0;  /* edges and stars looked at since the last checkpoint */
+  Pace pace;  /* edges and stars that are looked at */
 
   LoopRefinement(Context& context, Span<const uint32_t> loops, double wished, Array<Vec3>* points,
                  Array<uint32_t>* triangles)
@@ -22782,7 +22905,8 @@ struct LoopRefinement {
         size(context),
         twins(context),
         suspect(context),
-        copied(context) {}
+        copied(context),
+        pace(context) {}
 
   uint32_t origin(uint32_t h) const { return (*triangle)[h]; }
   uint32_t head(uint32_t h) const { return (*triangle)[next_half_edge(h)]; }
@@ -22811,17 +22935,11 @@ struct Stars {
 static bool is_held(const LoopRefinement& r, uint32_t u, uint32_t v) {
   if (u >= r.rim || v >= r.rim || r.edge.empty()) return false;
   const uint32_t a = u < v ? u : v, b = u < v ? v : u;
-  size_t low = 0, high = r.edge.size() / 2;
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    const uint32_t* e = &r.edge[2 * middle];
-    if (e[0] < a || (e[0] == a && e[1] < b)) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return 2 * low < r.edge.size() && r.edge[2 * low] == a && r.edge[2 * low + 1] == b;
+  const size_t i = first_failing(size_t{0}, r.edge.size() / 2, [&](size_t k) {
+    const uint32_t* e = &r.edge[2 * k];
+    return e[0] < a || (e[0] == a && e[1] < b);
+  });
+  return 2 * i < r.edge.size() && r.edge[2 * i] == a && r.edge[2 * i + 1] == b;
 }
 
 static Diamond diamond_at(const LoopRefinement& r, uint32_t h) {
@@ -22864,13 +22982,6 @@ static bool meets_and_steps(const LoopRefinement& r, uint32_t name, StarWalk* wa
   walk->done = across == k_none;
   if (!walk->done) walk->at = next_half_edge(across);
   return false;
-}
-
-static Status pause_refining(LoopRefinement* r) {
-  constexpr size_t k_work_per_checkpoint = 2048;
-  if (++r->work < k_work_per_checkpoint) return {};
-  r->work = 0;
-  return r->suspect.context().checkpoint();
 }
 
 static bool is_copied(const LoopRefinement& r, uint32_t v) {
@@ -22944,7 +23055,7 @@ static Status flip_suspects(LoopRefinement* r) {
   while (!r->suspect.empty()) {
     const uint32_t h = r->suspect.back();
     r->suspect.pop();
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
     if (flips_left == 0 || !improves_by_flip(*r, h)) continue;
     TRY(flip_diamond(r, h));
     --flips_left;
@@ -23017,7 +23128,7 @@ static Status split_longer(LoopRefinement* r, double level, size_t* splits) {
   *splits = 0;
   for (uint32_t h = 0; h < r->twins.size(); ++h) {
     if (r->position->size() >= r->most_points) break;
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
     if (!(excess(*r, h) > level)) continue;
     TRY(split_diamond(r, h));
     TRY(flip_suspects(r));
@@ -23061,7 +23172,7 @@ static Status relax_inner(LoopRefinement* r, bool within_plane, Stars* stars) {
     const Vec3 step = centre_of(*r, star) - r->at(v);
     const Vec3 target = r->at(v) + (within_plane ? reject(step, stars->normal[v]) : step);
     if (may_move(*r, star, target)) (*r->position)[v] = target;
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
   }
   return {};
 }
@@ -23077,7 +23188,7 @@ static Status grade_sizes(LoopRefinement* r, const Stars& stars) {
       most = smaller(most, r->size[u] + reach);
     }
     r->size[v] = least > most ? 0.5 * (least + most) : smaller(larger(r->spacing, least), most);
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
   }
   return {};
 }
@@ -23169,7 +23280,7 @@ static Status refine_all(LoopRefinement* r) {
   TRY(flip_everywhere(r));
   double level = 0.0;
   for (uint32_t h = 0; h < r->twins.size(); ++h) {
-    TRY(pause_refining(r));
+    TRY(r->pace.after(k_steps_of_edge));
     level = larger(level, excess(*r, h));
   }
   size_t splits = 0;
@@ -23367,12 +23478,7 @@ struct Bridge {
 }  /* namespace */
 
 static uint32_t loop_of(const Loops& loops, uint32_t v) {
-  uint32_t low = 0, high = loops.count();
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    (loops.start[middle] <= v ? low : high) = middle;
-  }
-  return low;
+  return last_holding(0u, loops.count(), [&](uint32_t k) { return loops.start[k] <= v; });
 }
 
 static Bridge find_bridge(const Loops& loops, Span<const uint32_t> polygon,
@@ -23729,11 +23835,8 @@ static double fraction(double share) {
 
 static WalkPlace place_at(const Walk& walk, double share) {
   const double at = fraction(share);
-  size_t low = 0, high = walk.share.size();
-  while (high - low > 1) {
-    const size_t middle = low + (high - low) / 2;
-    (walk.share[middle] <= at ? low : high) = middle;
-  }
+  const size_t low =
+      last_holding(size_t{0}, walk.share.size(), [&](size_t i) { return walk.share[i] <= at; });
   const size_t next = low + 1 < walk.share.size() ? low + 1 : 0;
   const double end = next == 0 ? 1.0 : walk.share[next];
   const double t = end > walk.share[low] ? (at - walk.share[low]) / (end - walk.share[low]) : 0.0;
@@ -23828,11 +23931,9 @@ static double matched(Span<const Match> matches, double share, bool from_b) {
   double at = share;
   while (at < first) at += 1.0;
   while (at >= first + 1.0) at -= 1.0;
-  size_t low = 0, high = matches.size() - 1;
-  while (high - low > 1) {
-    const size_t middle = low + (high - low) / 2;
-    ((from_b ? matches[middle].b : matches[middle].a) <= at ? low : high) = middle;
-  }
+  const size_t low = last_holding(size_t{0}, matches.size() - 1, [&](size_t i) {
+    return (from_b ? matches[i].b : matches[i].a) <= at;
+  });
   const Match &m = matches[low], &n = matches[low + 1];
   const double begin = from_b ? m.b : m.a, end = from_b ? n.b : n.a;
   const double t = end > begin ? (at - begin) / (end - begin) : 0.0;
@@ -24490,8 +24591,8 @@ Status mean_curvature(Span<const Vec3> positions, Span<const Vec3> normals,
   Context& context = curvature->context();
   const size_t n = positions.size();
   Array<double> area(context);
-  TRY(curvature->assign(n, 0.0));
-  TRY(area.assign(n, 0.0));
+  TRY(assign_in_parts(n, 0.0, curvature));
+  TRY(assign_in_parts(n, 0.0, &area));
   TRY(in_parts(context, triangles.size() / 3, [&](size_t t) {
     const uint32_t* v = &triangles[3 * t];
     const Vec3 normal = unit(normals[v[0]] + normals[v[1]] + normals[v[2]]);
@@ -24756,19 +24857,19 @@ static Status allocate_graph(const Csc& lower, QuotientGraph* g) {
   g->n = n;
   TRY(g->list.resize(room));
   TRY(g->start.resize(n));
-  TRY(g->length.assign(n, 0));
-  TRY(g->elements.assign(n, 0));
-  TRY(g->weight.assign(n, 1));
-  TRY(g->degree.assign(n, 0));
-  TRY(g->head.assign(n, k_none));
-  TRY(g->next.assign(n, k_none));
-  TRY(g->previous.assign(n, k_none));
-  TRY(g->seen.assign(n, 0));
+  TRY(assign_in_parts(n, 0, &g->length));
+  TRY(assign_in_parts(n, 0, &g->elements));
+  TRY(assign_in_parts(n, 1, &g->weight));
+  TRY(assign_in_parts(n, 0, &g->degree));
+  TRY(assign_in_parts(n, k_none, &g->head));
+  TRY(assign_in_parts(n, k_none, &g->next));
+  TRY(assign_in_parts(n, k_none, &g->previous));
+  TRY(assign_in_parts(n, 0, &g->seen));
   TRY(g->outside.resize(n));
   TRY(g->hash.resize(n));
-  TRY(g->bucket.assign(n, k_none));
-  TRY(g->mark.assign(n, 0));
-  TRY(g->member_next.assign(n, k_none));
+  TRY(assign_in_parts(n, k_none, &g->bucket));
+  TRY(assign_in_parts(n, 0, &g->mark));
+  TRY(assign_in_parts(n, k_none, &g->member_next));
   TRY(g->member_last.resize(n));
   return g->pivots.reserve(n);
 }
@@ -25535,25 +25636,18 @@ struct Factors {
 
 }  /* namespace */
 
-/* Columns may be long, so the multiplications are counted instead of the columns. */
-static Status pause_for_checkpoint(Context& context, size_t* work) {
-  constexpr size_t k_work_per_checkpoint = size_t{1} << 18;
-  if (*work < k_work_per_checkpoint) return {};
-  *work = 0;
-  return context.checkpoint();
-}
-
 /* Gathers column `column` of B's numbering, which is unknown j, and leaves its rows unsorted. */
-/* Weights of zero are no reason to skip an entry: the pattern must not depend on values. */
+/* Weights of zero are no reason to skip an entry: the pattern must not depend on values. Columns */
+/* may be long, so the multiplications are counted instead of the columns. */
 static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
-                          Accumulator* gathered, size_t* work) {
+                          Accumulator* gathered, Pace* pace) {
   uint32_t* const mark = gathered->mark.data();
   uint32_t* const rows = gathered->rows.data();
   double* const sum = gathered->sum.data();
   uint32_t count = 0;
   for (uint32_t q = factors.b.start[column]; q < factors.b.start[column + 1]; ++q) {
     const uint32_t inner = factors.b.row[q];
-    *work += factors.a.start[inner + 1] - factors.a.start[inner];
+    pace->add(factors.a.start[inner + 1] - factors.a.start[inner]);
     const double scale = factors.weight[inner] * factors.b.value[q];
     for (uint32_t p = factors.a.start[inner + 1]; p-- > factors.a.start[inner];) {
       if (factors.ends_at(factors.a.row[p], column)) break;
@@ -25572,18 +25666,17 @@ static void gather_column(const Factors& factors, uint32_t column, uint32_t j,
 }
 
 /* About the number of entries of the product, from every 32nd column. */
-static Status estimate_entries(const Factors& factors, Accumulator* gathered, size_t* work,
+static Status estimate_entries(const Factors& factors, Accumulator* gathered, Pace* pace,
                                size_t* entries) {
   constexpr uint32_t k_step = 32;
   size_t total = 0;
   uint32_t j = 0;
   for (uint32_t column = 0; column < factors.b.cols; ++column) {
-    TRY(checkpoint_at_column(gathered->mark.context(), column));
+    TRY(pace->after());
     if (factors.unknown[column] == k_none) continue;
     if (j % k_step == 0) {
-      gather_column(factors, column, j, gathered, work);
+      gather_column(factors, column, j, gathered, pace);
       total += gathered->count;
-      TRY(pause_for_checkpoint(gathered->mark.context(), work));
     }
     ++j;
   }
@@ -25606,25 +25699,26 @@ Status weighted_product(const Csc& a, Span<const double> weight, const Csc& b,
   Context& context = product->start.context();
   const Factors factors = {a, weight, b, unknown, part};
   Accumulator gathered(context);
-  size_t work = 0, room = 0, entries = 0;
-  TRY(gathered.mark.assign(unknowns, k_none));
-  TRY(gathered.sum.assign(unknowns, 0.0));
+  Pace pace(context, k_light_steps_per_checkpoint);
+  size_t room = 0, entries = 0;
+  TRY(assign_in_parts(unknowns, k_none, &gathered.mark));
+  TRY(assign_in_parts(unknowns, 0.0, &gathered.sum));
   TRY(gathered.rows.resize(size_t{unknowns} + 1));
   TRY(product->start.resize(size_t{unknowns} + 1));
   product->rows = product->cols = unknowns;
   product->row.clear();
   product->value.clear();
-  TRY(estimate_entries(factors, &gathered, &work, &entries));
+  TRY(estimate_entries(factors, &gathered, &pace, &entries));
   TRY(make_room(entries, &room, product));
-  for (uint32_t& m : gathered.mark) m = k_none;
+  TRY(assign_in_parts(unknowns, k_none, &gathered.mark));
   uint32_t j = 0;
   for (uint32_t column = 0; column < b.cols; ++column) {
     if (unknown[column] == k_none) continue;
-    gather_column(factors, column, j, &gathered, &work);
+    gather_column(factors, column, j, &gathered, &pace);
     TRY(make_room(gathered.count, &room, product));
     product->start[j++] = static_cast<uint32_t>(product->row.size());
     TRY(append_column(gathered.rows.span().part(0, gathered.count), gathered.sum.span(), product));
-    TRY(pause_for_checkpoint(context, &work));
+    TRY(pace.after());
   }
   product->start[unknowns] = static_cast<uint32_t>(product->row.size());
   return {};
@@ -26751,20 +26845,21 @@ static void extend(const Box& more, Box* box) {
                larger(box->high.z, high.z)};
 }
 
-Box BoxTree::bound(uint32_t first, uint32_t count) const {
-  Box box = boxes_[order_[first]];
-  for (uint32_t i = 1; i < count; ++i) extend(boxes_[order_[first + i]], &box);
-  return box;
+Status BoxTree::bound(uint32_t first, uint32_t count, Box* box) const {
+  *box = boxes_[order_[first]];
+  return in_parts(order_.context(), count,
+                  [&](size_t i) { extend(boxes_[order_[first + i]], box); });
 }
 
-/* Equal places by index. */
+/* Moves the half of lesser centres, along the axis in which they spread most, to the front; equal */
+/* ones are told apart by index. */
 Status BoxTree::halve(uint32_t first, uint32_t count) {
   Vec3 low = twice_centre(boxes_[order_[first]]), high = low;
-  for (uint32_t i = first; i < first + count; ++i) {
-    const Vec3 c = twice_centre(boxes_[order_[i]]);
+  TRY(in_parts(order_.context(), count, [&](size_t i) {
+    const Vec3 c = twice_centre(boxes_[order_[first + i]]);
     low = {smaller(low.x, c.x), smaller(low.y, c.y), smaller(low.z, c.z)};
     high = {larger(high.x, c.x), larger(high.y, c.y), larger(high.z, c.z)};
-  }
+  }));
   const Vec3 spread = high - low;
   const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
   const auto before = [&](uint32_t a, uint32_t b) {
@@ -26788,7 +26883,7 @@ Status BoxTree::build(Span<const Box> boxes) {
   size_t work = 0;
   while (todo.size > 0) {
     const TreeRange range = todo.pop();
-    node_[range.node] = bound(range.first, range.count);
+    TRY(bound(range.first, range.count, &node_[range.node]));
     if (range.is_leaf()) continue;
     TRY(halve(range.first, range.count));
     todo.push(range.upper());
@@ -26836,7 +26931,8 @@ Status Beads::string_samples(size_t joints) {
   TRY(sets.reset(static_cast<uint32_t>(room)));
   PointMembers members(context());
   TRY(list_members(wires, &members));
-  for (uint32_t i = 0; i < n; ++i) {
+  TRY(in_parts(context(), n, [&](size_t s) {
+    const uint32_t i = static_cast<uint32_t>(s);
     Bead sample;
     sample.position = wires.position[i];
     sample.edge = i;
@@ -26845,9 +26941,11 @@ Status Beads::string_samples(size_t joints) {
     if (sample.next != k_none) sample.to_next = edge_length(i);
     sample.given = wires.point[i];
     bead.push_reserved(sample);
-  }
+  }));
+  Pace pace(context());
   for (uint32_t p = 0; p < wires.points; ++p) {
     const Span<const uint32_t> own = members[p];
+    TRY(pace.after(own.size()));
     for (size_t k = 0; k < own.size(); ++k) {
       bead[own[k]].ring = own[(k + 1) % own.size()];
       bead[own[k]].joined = own.size() > 1;
@@ -26979,12 +27077,14 @@ void Beads::unite(uint32_t a, uint32_t b) {
   touched[sets.find(a)] = 1;
 }
 
-void Beads::unite_close(double reach) {
+Status Beads::unite_close(double reach) {
+  Pace pace(context());
   for (uint32_t c = 0; c < wires.curves(); ++c) {
     const uint32_t first = wires.start[c];
     uint32_t last = k_none, b = first;
     double away = 0.0;
     do {
+      TRY(pace.after());
       if (bead[b].ring != b) {
         const bool near = last != k_none && away <= reach;
         if (near && (touched[sets.find(last)] || touched[sets.find(b)])) unite(last, b);
@@ -26995,6 +27095,7 @@ void Beads::unite_close(double reach) {
       b = bead[b].next;
     } while (b != k_none && b != first);
   }
+  return {};
 }
 
 }  /* namespace wireskin::network */
@@ -27055,12 +27156,8 @@ void bend_curve(const Bend& bend) {
 namespace wireskin::network {
 
 static uint32_t curve_of_sample(const SampleNumbers& samples, uint32_t sample) {
-  uint32_t low = 0, high = static_cast<uint32_t>(samples.start.size()) - 1;
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    (samples.start[middle] <= sample ? low : high) = middle;
-  }
-  return low;
+  const uint32_t curves = static_cast<uint32_t>(samples.start.size()) - 1;
+  return last_holding(0u, curves, [&](uint32_t c) { return samples.start[c] <= sample; });
 }
 
 static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,
@@ -27648,14 +27745,14 @@ uint32_t segment_vertex(const Network& network, const CurveVertices& vertices, u
 }
 
 static Status place_vertices(const curves::Curves& curves, const Network& network, uint32_t s,
-                             CurveVertices* vertices) {
+                             Pace* pace, CurveVertices* vertices) {
   const Segment& segment = network.segment[s];
   const curves::Curve curve = curves[segment.curve];
   const double from = curve.arc[segment.first_knot];
   const double length = curve.arc[segment.last_knot] - from;
   const uint32_t edges = vertices->edges[s];
   for (uint32_t k = 0; k <= edges; ++k) {
-    if (k % 4096 == 4095) TRY(vertices->position.context().checkpoint());
+    TRY(pace->after(curves::k_steps_of_point));
     const uint32_t v = segment_vertex(network, *vertices, s, k);
     if (vertices->curve[v] > segment.curve) vertices->curve[v] = segment.curve;
     if (segment.from != k_none && (k == 0 || k == edges)) continue;  /* nodes are there already */
@@ -27682,9 +27779,9 @@ Status resample(const curves::Curves& curves, Span<const Node> nodes, const Netw
     vertices->position[i] = nodes[i].position;
     vertices->normal[i] = nodes[i].normal;
   }
+  Pace pace(vertices->position.context());
   for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    TRY(place_vertices(curves, network, s, vertices));
-    if (s % 256 == 255) TRY(vertices->position.context().checkpoint());
+    TRY(place_vertices(curves, network, s, &pace, vertices));
   }
   /* The curves' own numbers of nodes would not do: they hold before patches are dropped. */
   for (size_t i = 0; i < nodes.size(); ++i) {
@@ -27797,7 +27894,8 @@ double border_length(const Border& border) {
 namespace wireskin::network {
 
 /* The normals of one side of segment s, `curve` being its curve as seen from there. */
-static Status fill_side(const curves::Curve& curve, const Segment& segment, Span<Vec3> side) {
+static Status fill_side(const curves::Curve& curve, const Segment& segment, Pace* pace,
+                        Span<Vec3> side) {
   const size_t edges = side.size() - 1;
   const double from = curve.arc[segment.first_knot];
   const double length = curve.arc[segment.last_knot] - from;
@@ -27808,6 +27906,7 @@ static Status fill_side(const curves::Curve& curve, const Segment& segment, Span
     return {};
   }
   for (size_t k = 1; k < edges; ++k) {
+    TRY(pace->after(curves::k_steps_of_point));
     const double part = static_cast<double>(k) / static_cast<double>(edges);
     side[k] = point_at(curve, segment.first_knot, segment.last_knot, from + part * length).normal;
     if (dot(side[k], side[k]) > 0.5) continue;
@@ -27830,13 +27929,14 @@ Status resample_sides(const curves::Curves& curves, const Network& network,
   vertices->side_start[segments] = total;
   TRY(vertices->left.resize(total));
   TRY(vertices->right.resize(total));
+  Pace pace(vertices->left.context());
   for (uint32_t s = 0; s < segments; ++s) {
     const Segment& segment = network.segment[s];
     const size_t first = vertices->side_start[s], count = size_t{vertices->edges[s]} + 1;
     const Span<Vec3> left = vertices->left.span().part(first, count);
     const Span<Vec3> right = vertices->right.span().part(first, count);
-    TRY(fill_side(curves[segment.curve], segment, left));
-    TRY(fill_side(seen_from_right(curves, segment.curve), segment, right));
+    TRY(fill_side(curves[segment.curve], segment, &pace, left));
+    TRY(fill_side(seen_from_right(curves, segment.curve), segment, &pace, right));
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t v = segment_vertex(network, *vertices, s, k);
       const bool inside = segment.from == k_none || (k > 0 && k + 1 < count);
@@ -28265,33 +28365,13 @@ static Status take_domain(const Network& network, const CurveVertices& vertices,
 
 static bool find_edge(Span<const Chord> sorted, uint32_t a, uint32_t b) {
   const Chord edge = {a, b, k_none};
-  size_t low = 0, high = sorted.size();
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    if (before(sorted[middle], edge)) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < sorted.size() && sorted[low].a == a && sorted[low].b == b;
+  const size_t i =
+      first_failing(size_t{0}, sorted.size(), [&](size_t k) { return before(sorted[k], edge); });
+  return i < sorted.size() && sorted[i].a == a && sorted[i].b == b;
 }
 
 static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
   return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
-}
-
-/* Room for `more` elements; grows as push() does, but what is moved may be long. */
-template <typename T>
-static Status reserve_more(Array<T>* array, size_t more) {
-  const size_t room = array->capacity_bytes() / sizeof(T), needed = array->size() + more;
-  if (needed <= room) return {};
-  Array<T> grown(array->context());
-  TRY(grown.reserve(needed < room + room / 2 ? room + room / 2 : needed));
-  TRY(in_parts(array->context(), array->size(),
-               [&](size_t i) { grown.push_reserved((*array)[i]); }));
-  *array = static_cast<Array<T>&&>(grown);
-  return {};
 }
 
 /* Notes the chords of triangle `t`, whose vertices among the patch's are `corner`, and its corners */
@@ -28318,11 +28398,11 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   PatchMesh* mesh = builder->mesh;
   const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
   const size_t first = mesh->patch.size(), more = triangle.size() / 3;
-  TRY(reserve_more(&mesh->triangle, triangle.size()));
-  TRY(reserve_more(&mesh->patch, more));
-  TRY(reserve_more(&mesh->shape, more));
-  TRY(reserve_more(&mesh->start, scratch.inner.size()));
-  TRY(reserve_more(&mesh->placed, scratch.inner.size()));
+  TRY(make_room_in_parts(triangle.size(), &mesh->triangle));
+  TRY(make_room_in_parts(more, &mesh->patch));
+  TRY(make_room_in_parts(more, &mesh->shape));
+  TRY(make_room_in_parts(scratch.inner.size(), &mesh->start));
+  TRY(make_room_in_parts(scratch.inner.size(), &mesh->placed));
   for (size_t t = 0; t < more; ++t) {
     const uint32_t* corner = &triangle[3 * t];
     const auto global = [&](uint32_t v) {
@@ -28567,13 +28647,11 @@ static Status mesh_patch(const Network& network, const CurveVertices& vertices, 
 }
 
 static TriangleCorners* corners_of(uint32_t triangle, Builder* builder) {
-  size_t first = 0, end = builder->cornered.size();
-  while (first + 1 < end) {
-    const size_t middle = first + (end - first) / 2;
-    (builder->cornered[middle].triangle <= triangle ? first : end) = middle;
-  }
-  WIRESKIN_ASSERT(first < end && builder->cornered[first].triangle == triangle);
-  return &builder->cornered[first];
+  const size_t i = last_holding(size_t{0}, builder->cornered.size(), [&](size_t k) {
+    return builder->cornered[k].triangle <= triangle;
+  });
+  WIRESKIN_ASSERT(builder->cornered[i].triangle == triangle);
+  return &builder->cornered[i];
 }
 
 static mesh::TriangleShape shape_of(const TriangleCorners& corners) {
@@ -29224,18 +29302,12 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
     if (clockwise && !network.ring[p]) continue;
     TRY(draw_outline(&outline));
     const double reach = 2.0 * outline.widest + outline.highest;
-    size_t low = 0, high = count;
-    while (low < high) {
-      const size_t middle = low + (high - low) / 2;
-      if (place(order[middle]) < outline.plane.origin.x - reach) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
+    const double middle = outline.plane.origin.x;
+    size_t i = first_failing(size_t{0}, size_t{count},
+                             [&](size_t k) { return place(order[k]) < middle - reach; });
     const uint32_t own = components.of_vertex[border.vertex[0]];
-    for (; low < count && place(order[low]) <= outline.plane.origin.x + reach; ++low) {
-      const uint32_t c = order[low];
+    for (; i < count && place(order[i]) <= middle + reach; ++i) {
+      const uint32_t c = order[i];
       if (c != own) enclose(vertices, components, c, outline, p, &(*enclosing)[c]);
     }
     TRY(context.checkpoint());
@@ -29245,66 +29317,6 @@ Status find_enclosing(const Network& network, const CurveVertices& vertices,
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/enclosure.cpp ======== */
-
-/* ======== begin src/network/facing.cpp ======== */
-namespace wireskin::network {
-
-/* Loops whose normals agree with their axis better than this bound a patch by themselves, if no */
-/* other loop needs them. */
-static constexpr double k_clearly_closed = 0.5;
-/* So many vertices of a loop at most are looked at. */
-static constexpr uint32_t k_most_probes = 64;
-
-Status add_facing(const Border& border, uint32_t loop, uint32_t patch, bool reversed, double cosine,
-                  double area, Array<Facing>* facing, Array<Probe>* probes) {
-  const uint32_t start = border.start[loop], n = border.start[loop + 1] - start;
-  const uint32_t count = n < k_most_probes ? n : k_most_probes;
-  const double least = larger(1.0 + cosine, 1e-3);
-  Facing f = {patch,
-              reversed,
-              static_cast<uint32_t>(probes->size()),
-              count,
-              cosine < k_clearly_closed,
-              8.0 * area / (least * least * least),
-              Vec3{},
-              0.0};
-  const double total = border_length(border);
-  for (uint32_t k = 0; k < count; ++k) {
-    const uint32_t i = static_cast<uint32_t>(uint64_t{k} * n / count);
-    const Vec3& p = border.position[start + i];
-    const Vec3& next = border.position[start + (i + 1 < n ? i + 1 : 0)];
-    const Vec3& before = border.position[start + (i > 0 ? i - 1 : n - 1)];
-    const Vec3 conormal = unit(cross(border.normal[start + i], next - before));
-    TRY(probes->push({p, reversed ? -conormal : conormal, total / count}));
-    f.centre += (1.0 / count) * p;
-  }
-  for (uint32_t k = 0; k < count; ++k) {
-    f.radius = larger(f.radius, length((*probes)[f.first + k].position - f.centre));
-  }
-  return facing->push(f);
-}
-
-double half_band(const Facing& a, const Facing& b, Span<const Probe> probes, double least_cosine) {
-  double area = 0.0, cosine = 0.0;
-  for (const Probe& p : probes.part(a.first, a.count)) {
-    Vec3 nearest;
-    double least = DBL_MAX;
-    for (const Probe& q : probes.part(b.first, b.count)) {
-      const Vec3 way = q.position - p.position;
-      if (dot(way, way) < least) {
-        least = dot(way, way);
-        nearest = way;
-      }
-    }
-    if (least == 0.0) return -1.0;  /* loops that touch */
-    area += 0.5 * p.share * std::sqrt(least);
-    cosine += dot(p.conormal, unit(nearest)) / static_cast<double>(a.count);
-  }
-  return cosine < least_cosine ? -1.0 : area * 2.0 / (1.0 + cosine);
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/facing.cpp ======== */
 
 /* ======== begin src/network/group.cpp ======== */
 namespace wireskin::network {
@@ -29368,7 +29380,6 @@ Status group_patches(const CurveVertices& vertices, Network* network, Ambiguity*
   TRY(join_enclosed(&planes));
   TRY(join_rings(&planes));
   TRY(join_in_sight(&planes));
-  TRY(join_facing(&planes));
   TRY(rebuild(&planes, &number, &ambiguous));
   TRY(take_components(&spaces));
   TRY(settled.assign(planes.holder.size(), 0));
@@ -29590,160 +29601,6 @@ Status join_enclosed(Grouping* g) {
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/group_enclosed.cpp ======== */
-
-/* ======== begin src/network/group_facing.cpp ======== */
-namespace wireskin::network {
-
-/* Conormals must lead to the other loop with at least this cosine in the mean. */
-static constexpr double k_least_facing_cosine = 0.2;
-/* And with this one where both loops are of one component, neither of them being closed alone. */
-static constexpr double k_least_facing_in_component = 0.6;
-/* A ring whose normals agree less with its axis has no side of its own: closing it alone is no way. */
-static constexpr double k_unclear_side = 0.02;
-/* Choices whose areas differ by less than this part are equally good. */
-static constexpr double k_hardly_more = 1.1;
-
-namespace {
-
-struct Band {
-  uint32_t a, b;
-  double area;
-};
-
-}  /* namespace */
-
-static Status list_facing(Grouping* g, Span<const uint8_t> decided, Array<Facing>* facing,
-                          Array<Probe>* probes) {
-  const Network& network = *g->network;
-  Border border(g->parent.context());
-  for (uint32_t p = 0; p < network.patches(); ++p) {
-    if (g->root(p) != p || g->reversed[p] || g->settled[p] ||
-        network.patch_start[p + 1] != network.patch_start[p] + 1)
-      continue;
-    TRY(border_of_patch(network, g->vertices, p, &border));
-    double area = 0.0;
-    const double cosine = closing_cosine(border, &area);
-    TRY(add_facing(border, 0, p, false, cosine, area, facing, probes));
-    if (network.ring[p] && !decided[p]) {
-      /* A ring alone takes the cheaper side. */
-      TRY(add_facing(border, 0, p, true, -cosine, area, facing, probes));
-      Facing *one = &(*facing)[facing->size() - 2], *other = &facing->back();
-      const bool unclear = std::fabs(cosine) < k_unclear_side;
-      one->alone = other->alone = smaller(one->alone, other->alone);
-      one->sideless = other->sideless = unclear;
-    }
-    TRY(border.vertex.context().checkpoint());
-  }
-  return {};
-}
-
-static Status list_bands(const Grouping& g, Span<const Facing> facing, Span<const Probe> probes,
-                         Array<Band>* bands) {
-  constexpr double k_far = 8.0;
-  for (uint32_t i = 0; i < facing.size(); ++i) {
-    const Facing& a = facing[i];
-    for (uint32_t j = 0; a.needy && j < facing.size(); ++j) {
-      const Facing& b = facing[j];
-      const bool same = g.component[a.patch] == g.component[b.patch];
-      if ((same && !b.needy) || a.patch == b.patch || (b.needy && j < i)) continue;
-      const double least = same ? k_least_facing_in_component : k_least_facing_cosine;
-      if (length(a.centre - b.centre) > k_far * (a.radius + b.radius)) continue;
-      const double from_a = half_band(a, b, probes, least);
-      if (from_a < 0.0) continue;
-      const double from_b = half_band(b, a, probes, least);
-      if (from_b < 0.0) continue;
-      TRY(bands->push({i, j, from_a + from_b}));
-    }
-    TRY(bands->context().checkpoint());
-  }
-  sort(bands->span(), [](const Band& x, const Band& y) {
-    if (x.area != y.area) return x.area < y.area;
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  });
-  return {};
-}
-
-namespace {
-
-/* How far rule 4 has come. */
-struct Pairing {
-  Array<Facing> facing;
-  Array<uint8_t> joined;   /* facing */
-  Array<uint8_t> decided;  /* patch: which side of a ring has the surface */
-
-  explicit Pairing(Context& context) : facing(context), joined(context), decided(context) {}
-};
-
-}  /* namespace */
-
-/* What closing the two loops by themselves would cost, as far as they are not joined yet. */
-static double cost_alone(const Pairing& pairing, const Band& band) {
-  return (pairing.joined[band.a] ? 0.0 : pairing.facing[band.a].alone) +
-         (pairing.joined[band.b] ? 0.0 : pairing.facing[band.b].alone);
-}
-
-static bool loops_may_join(Grouping* g, const Pairing& pairing, const Band& band) {
-  const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
-  const bool wrong_side = (pairing.decided[a.patch] && (g->reversed[a.patch] != 0) != a.reversed) ||
-                          (pairing.decided[b.patch] && (g->reversed[b.patch] != 0) != b.reversed);
-  const bool both_alone = !pairing.joined[band.a] && !pairing.joined[band.b];
-  const bool no_other_way = both_alone && (a.sideless || b.sideless);
-  if (!(no_other_way || band.area < cost_alone(pairing, band)) || wrong_side) return false;
-  return !share_vertex(g, a.patch, b.patch);
-}
-
-/* Whether closing the loops alone, or one of the bands that follow, which are larger, was hardly */
-/* worse than the first band and contradicts it. */
-static bool is_ambiguous(Grouping* g, const Pairing& pairing, Span<const Band> bands) {
-  const Band& band = bands[0];
-  if (cost_alone(pairing, band) < k_hardly_more * band.area) return true;
-  const uint32_t own[2] = {pairing.facing[band.a].patch, pairing.facing[band.b].patch};
-  for (size_t i = 1; i < bands.size() && bands[i].area < k_hardly_more * band.area; ++i) {
-    const Facing &a = pairing.facing[bands[i].a], &b = pairing.facing[bands[i].b];
-    for (int k = 0; k < 2; ++k) {
-      const bool reversed = pairing.facing[k == 0 ? band.a : band.b].reversed;
-      /* The same loop by its other side, or where it has one side only, with another loop. */
-      const bool by_a = a.patch == own[k] && (a.reversed != reversed || b.patch != own[1 - k]);
-      const bool by_b = b.patch == own[k] && (b.reversed != reversed || a.patch != own[1 - k]);
-      if ((by_a || by_b) && loops_may_join(g, pairing, bands[i])) return true;
-    }
-  }
-  return false;
-}
-
-Status join_facing(Grouping* g) {
-  Context& context = g->parent.context();
-  Pairing pairing(context);
-  Array<Probe> probes(context);
-  Array<Band> bands(context);
-  Array<uint8_t>&joined = pairing.joined, &decided = pairing.decided;
-  TRY(decided.assign(g->parent.size(), 0));
-  for (uint32_t p = 0; p < decided.size(); ++p) {
-    if (g->root(p) != p) decided[p] = decided[g->root(p)] = 1;
-  }
-  TRY(list_facing(g, decided.span(), &pairing.facing, &probes));
-  TRY(list_bands(*g, pairing.facing.span(), probes.span(), &bands));
-  TRY(joined.assign(pairing.facing.size(), 0));
-  for (size_t i = 0; i < joined.size(); ++i) joined[i] = decided[pairing.facing[i].patch];
-  for (size_t i = 0; i < bands.size(); ++i) {
-    const Band& band = bands[i];
-    if (!loops_may_join(g, pairing, band)) continue;
-    const Facing &a = pairing.facing[band.a], &b = pairing.facing[band.b];
-    if (is_ambiguous(g, pairing, bands.span().part(i, bands.size() - i))) {
-      g->ambiguous[a.patch] = g->ambiguous[b.patch] = 1;
-    }
-    decided[a.patch] = decided[b.patch] = 1;
-    g->reversed[a.patch] = a.reversed;
-    g->reversed[b.patch] = b.reversed;
-    joined[band.a] = joined[band.b] = 1;
-    g->join(a.patch, b.patch);
-    TRY(context.checkpoint());
-  }
-  return {};
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/group_facing.cpp ======== */
 
 /* ======== begin src/network/group_guests.cpp ======== */
 namespace wireskin::network {
@@ -32600,7 +32457,7 @@ static Status survey_star(const Triangulation& t, uint32_t v, double spacing, do
 static Status survey(const Triangulation& t, double spacing, Array<double>* sizes,
                      Array<LatticeObstacle>* obstacles) {
   const uint32_t count = static_cast<uint32_t>(t.points.size());
-  TRY(sizes->assign(count, spacing));
+  TRY(assign_in_parts(count, spacing, sizes));
   TRY(obstacles->reserve(count));
   for (uint32_t v = k_box_corners; v < count; ++v) {
     if (v % 4096 == 0) TRY(sizes->context().checkpoint());
@@ -32829,6 +32686,7 @@ static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8
   TRY(order.reserve(beads.bead.size()));
   TRY(pins.reserve(beads.bead.size()));
   TRY(shift.reserve(beads.bead.size()));
+  Pace pace(beads.context());
   for (uint32_t c = 0; c < beads.wires.curves(); ++c) {
     arc.clear(), order.clear(), pins.clear(), shift.clear();
     double length = 0.0;
@@ -32842,6 +32700,7 @@ static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8
       moves = moves || displacement[b] != Vec3{};
       length += beads.bead[b].to_next;
     }
+    TRY(pace.after(order.size()));
     if (!moves) continue;
     bend_curve({arc.span(), length, beads.wires.closed[c] != 0, pins.span(), shift.span()});
     for (size_t k = 0; k < order.size(); ++k) displacement[order[k]] = shift[k];
@@ -32901,15 +32760,16 @@ static Status find_moves(Beads* beads, BeadMoves* moves) {
   TRY(moves->target.resize(n));
   TRY(moves->pinned.assign(n, 0));
   TRY(seen.assign(beads->wires.points + size_t{n}, k_none));
-  for (uint32_t b = 0; b < n; ++b) {
+  TRY(in_parts(beads->context(), n, [&](size_t i) {
+    const uint32_t b = static_cast<uint32_t>(i);
     const Bead& bead = beads->bead[b];
     const uint32_t root = beads->sets.find(b);
     moves->target[b] = bead.position;
     moves->pinned[b] = bead.ring != b;
-    if (!beads->touched[root]) continue;
+    if (!beads->touched[root]) return;
     moves->target[b] = root == b ? target_of(*beads, root, seen.span(), root) : moves->target[root];
     moves->displacement[b] = moves->target[b] - bead.position;
-  }
+  }));
   return bend_beads(*beads, moves->displacement.span(), moves->pinned.span());
 }
 
@@ -32944,8 +32804,10 @@ Status write_beads(double detour, Beads* beads, Wires* out) {
   TRY(reserve_wires(wires.curves(), n, !wires.right.empty(), out));
   out->start.push_reserved(0);
   out->points = 0;
+  Pace pace(beads->context());
   for (uint32_t c = 0; c < wires.curves(); ++c) {
     list_beads(c, detour, beads, &order, &arc);
+    TRY(pace.after(order.size()));
     for (const uint32_t b : order) {
       const uint32_t root = beads->sets.find(b);
       if (name[root] == k_none) name[root] = out->points++;
@@ -33636,19 +33498,21 @@ static Status refine_triangle(Refiner* r, uint32_t triangle) {
 
 Status refine(Triangulation* t, Array<double>* sizes, double spacing, size_t most_vertices) {
   Refiner r = {t, sizes, spacing, Array<uint32_t>(t->triangles.context())};
-  for (uint32_t i = 0; i < t->triangles.size(); ++i) {
-    if ((t->triangles[i].flags & k_outside) == 0 && is_coarse(r, i))
+  TRY(in_parts(t->points.context(), t->triangles.size(), [&](size_t i) {
+    if ((t->triangles[i].flags & k_outside) == 0 && is_coarse(r, static_cast<uint32_t>(i)))
       t->triangles[i].flags |= k_coarse;
-  }
+  }));
+  Pace pace(t->points.context());
   for (uint32_t i = 0; i < t->triangles.size(); ++i) {
+    TRY(pace.after());
     if ((t->triangles[i].flags & k_coarse) == 0) continue;
     const uint32_t h = 4 * i;
     if (is_front(*t, h) || is_front(*t, h + 1) || is_front(*t, h + 2)) TRY(queue_triangle(&r, i));
   }
   const uint64_t most_work = t->work + k_most_work * most_vertices;
-  for (size_t step = 0; r.head < r.queue.size() && t->points.size() < most_vertices; ++step) {
+  while (r.head < r.queue.size() && t->points.size() < most_vertices) {
     if (t->work > most_work) break;
-    if (step % 4096 == 0) TRY(t->points.context().checkpoint());
+    TRY(pace.after(3));  /* its edges */
     TRY(refine_triangle(&r, pop_triangle(&r)));
   }
   return {};
@@ -33835,11 +33699,11 @@ static Status mend_triangles(Triangulation* t, const Mobility& mobility, bool* f
 }
 
 /* Those that may want to move: loose vertices and the neighbours of loose or held ones. */
-static void wake(const Triangulation& t, const Mobility& mobility, Span<uint8_t> awake) {
-  for (const Triangle& triangle : t.triangles) {
-    if (mobility.rests(triangle)) continue;
-    for (const uint32_t v : triangle.vertex) awake[v] = 1;
-  }
+static Status wake(const Triangulation& t, const Mobility& mobility, Span<uint8_t> awake) {
+  return in_parts(t.points.context(), t.triangles.size(), [&](size_t i) {
+    if (mobility.rests(t.triangles[i])) return;
+    for (const uint32_t v : t.triangles[i].vertex) awake[v] = 1;
+  });
 }
 
 Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, uint32_t first_loose,
@@ -33848,8 +33712,8 @@ Status relax(Triangulation* t, Span<const double> sizes, uint32_t first_free, ui
   const uint32_t count = static_cast<uint32_t>(t->points.size());
   const Mobility mobility = {first_free, first_loose};
   Array<uint8_t> awake(context);
-  TRY(awake.assign(count, 0));
-  wake(*t, mobility, awake.span());
+  TRY(assign_in_parts(count, 0, &awake));
+  TRY(wake(*t, mobility, awake.span()));
   t->stack.clear();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (uint32_t v = first_free; v < count; ++v) {
@@ -33921,7 +33785,7 @@ static Status find_curve_graph(Context& context, const GivenCurves& curves, Curv
   const uint32_t n = static_cast<uint32_t>(curves.position.size());
   Array<uint32_t> edges(context), filled(context);
   TRY(list_given_edges(context, curves, &edges));
-  TRY(graph->start.assign(size_t{n} + 1, 0));
+  TRY(assign_in_parts(size_t{n} + 1, 0, &graph->start));
   TRY(graph->neighbour.resize(edges.size()));
   TRY(graph->is_node.assign(n, 0));
   TRY(filled.assign(n, 0));
@@ -34132,7 +33996,7 @@ struct InnerEdges {
 static Status list_inner_edges(const DisplaceInput& input, InnerEdges* edges) {
   const Span<const uint32_t> ends = input.inner_edge;
   if (ends.empty()) return {};
-  TRY(edges->start.assign(input.position.size() + 1, 0));
+  TRY(assign_in_parts(input.position.size() + 1, 0, &edges->start));
   TRY(edges->other.resize(ends.size()));
   for (uint32_t v : ends) ++edges->start[v];
   starts_from_counts(edges->start.span());
@@ -34175,7 +34039,7 @@ static Status split_along_curves(const DisplaceInput& input, SplitMesh* split) {
   InnerEdges inner(context);
   TRY(mesh::find_corners(n, input.triangle, &start, &corner));
   TRY(list_inner_edges(input, &inner));
-  TRY(split->triangle.assign(input.triangle.size(), k_none));
+  TRY(assign_in_parts(input.triangle.size(), k_none, &split->triangle));
   TRY(split->origin.reserve(input.triangle.size()));
   TRY(in_parts(context, n, [&](size_t i) {
     const uint32_t v = static_cast<uint32_t>(i);
@@ -34204,7 +34068,7 @@ static Status add_rim_conormals(SplitMesh* split) {
   Context& context = split->origin.context();
   Array<uint32_t> twins(context);
   TRY(mesh::find_twins(split->vertices, split->triangle.span(), &twins));
-  TRY(split->conormal.assign(split->vertices, Vec3{}));
+  TRY(assign_in_parts(split->vertices, Vec3{}, &split->conormal));
   return in_parts(context, twins.size(), [&](size_t h) {
     if (twins[h] != k_none) return;
     const uint32_t next = mesh::next_half_edge(static_cast<uint32_t>(h));
@@ -34409,7 +34273,7 @@ Status MinimumVariation::order_unknowns(const DisplaceInput& input, const sparse
                                         Array<uint32_t>* order) const {
   Array<uint32_t> vertex(context_), patch(context_);
   TRY(vertex.reserve(unknowns_));
-  TRY(patch.assign(input.position.size(), 0));
+  TRY(assign_in_parts(input.position.size(), 0, &patch));
   TRY(in_parts(context_, displacement_.size(), [&](size_t v) {
     if (displacement_[v] != k_none) vertex.push_reserved(static_cast<uint32_t>(v));
     vertex.push_reserved(static_cast<uint32_t>(v));
@@ -34463,7 +34327,7 @@ Status MinimumVariation::solve_by_pairs(const DisplaceInput& input, const sparse
   constexpr double k_good_enough = 1e-6;
   if (!iterative_) {
     Array<uint32_t> patch(context_);
-    TRY(patch.assign(input.position.size(), 0));
+    TRY(assign_in_parts(input.position.size(), 0, &patch));
     TRY(mesh::patches_of_vertices(context_, input.triangle, input.patch, patch.span()));
     const size_t n = input.position.size(), springs = system.rows.rows - 2 * n;
     TRY(pairs_.build({laplacian,
@@ -34528,7 +34392,7 @@ Status MinimumVariation::solve(const DisplaceInput& input, Span<Vec3> normal, Sp
     factor_ = sparse::Cholesky(context_);
     TRY(solve_by_pairs(input, laplacian, area.span(), system, solution.span()));
   }
-  TRY(start_.copy(solution.span()));
+  TRY(copy_in_parts(solution.span(), &start_));
   return in_parts(context_, n, [&](size_t v) {
     step[v] = input.held[v] ? 0.0 : solution[displacement_[v]];
     if (!input.held[v]) start_[displacement_[v]] = 0.0;
@@ -34612,10 +34476,11 @@ static Status build_graph(const Csc& lower, Dissector* d) {
   const uint32_t vertices = static_cast<uint32_t>(g.position.size());
   Context& context = d->start.context();
   Array<uint32_t> next(context), seen(context);
-  TRY(d->start.assign(size_t{vertices} + 1, 0));
-  TRY(d->columns.assign(vertices, 0));
+  TRY(assign_in_parts(size_t{vertices} + 1, 0, &d->start));
+  TRY(assign_in_parts(vertices, 0, &d->columns));
+  Pace pace(context, k_light_steps_per_checkpoint);
   for (uint32_t j = 0; j < lower.cols; ++j) {
-    TRY(checkpoint_at_column(context, j));
+    TRY(pace.after(lower.start[j + 1] - lower.start[j]));
     const uint32_t v = vertex_of(g, j);
     ++d->columns[v];
     for (uint32_t k = lower.start[j] + 1; k < lower.start[j + 1]; ++k) {
@@ -34626,9 +34491,9 @@ static Status build_graph(const Csc& lower, Dissector* d) {
     }
   }
   TRY(d->neighbour.resize(starts_from_counts(d->start.span())));
-  TRY(next.copy(d->start.span()));
+  TRY(copy_in_parts(d->start, &next));
   for (uint32_t j = 0; j < lower.cols; ++j) {
-    TRY(checkpoint_at_column(context, j));
+    TRY(pace.after(lower.start[j + 1] - lower.start[j]));
     const uint32_t v = vertex_of(g, j);
     for (uint32_t k = lower.start[j] + 1; k < lower.start[j + 1]; ++k) {
       const uint32_t w = vertex_of(g, lower.row[k]);
@@ -34638,11 +34503,11 @@ static Status build_graph(const Csc& lower, Dissector* d) {
     }
   }
   if (g.vertex.empty()) return {};
-  TRY(seen.assign(vertices, k_none));
+  TRY(assign_in_parts(vertices, k_none, &seen));
   uint32_t write = 0;
   for (uint32_t v = 0; v < vertices; ++v) {
-    TRY(checkpoint_at_column(context, v));
     const uint32_t first = d->start[v], end = d->start[v + 1];
+    TRY(pace.after(end - first));
     d->start[v] = write;
     for (uint32_t k = first; k < end; ++k) {
       const uint32_t w = d->neighbour[k];
@@ -34918,7 +34783,8 @@ Status nested_dissection(const Csc& lower, const Geometry& geometry, Array<uint3
   TRY(d.keys.resize(vertices > d.patches.size() ? vertices : d.patches.size()));
   TRY(d.layer.resize(vertices));
   TRY(d.order.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) d.order[v] = v;
+  TRY(in_parts<k_light_steps_per_checkpoint>(
+      context, vertices, [&](size_t v) { d.order[v] = static_cast<uint32_t>(v); }));
   TRY(d.stack.push({0, vertices, 0, static_cast<uint32_t>(d.patches.size())}));
   while (!d.stack.empty()) {
     const Stretch s = d.stack.back();
@@ -34932,8 +34798,11 @@ Status nested_dissection(const Csc& lower, const Geometry& geometry, Array<uint3
   /* Columns of a vertex are neighbours in the matrix: where each begins, and all of them. */
   order->clear();
   Array<uint32_t> first(context);
-  TRY(first.assign(size_t{vertices} + 1, lower.cols));
-  for (uint32_t j = lower.cols; j-- > 0;) first[vertex_of(geometry, j)] = j;
+  TRY(assign_in_parts(size_t{vertices} + 1, lower.cols, &first));
+  TRY(in_parts(context, lower.cols, [&](size_t i) {
+    const uint32_t j = lower.cols - 1 - static_cast<uint32_t>(i);
+    first[vertex_of(geometry, j)] = j;
+  }));
   return in_parts(context, vertices, [&](size_t k) {
     const uint32_t v = d.order[k];
     for (uint32_t j = first[v]; j < lower.cols && vertex_of(geometry, j) == v; ++j) {
@@ -35044,7 +34913,7 @@ static Status harmonic_start(Context& context, const FairMesh& mesh, double* res
   System system(context);
   Array<double> weight(context);
   TRY(mesh::cotangent_laplacian(n, mesh.triangle, mesh.start_shape, &laplacian));
-  TRY(weight.assign(n, 1.0));
+  TRY(assign_in_parts(n, 1.0, &weight));
   TRY(system.prepare(laplacian, mesh.on_curve, Order::one, mesh.places));  /* soft curves move later */
   TRY(system.factor(weight.span(), {}));
   return system.solve({}, {}, mesh.position, residual);
@@ -35098,9 +34967,9 @@ static Status paper_step(Context& context, const FairMesh& mesh, Array<mesh::Tri
 
 static Status prepare_guard(Context& context, const FairMesh& mesh, uint32_t patches,
                             Guard* guard) {
-  TRY(guard->position.copy(mesh.position));
+  TRY(copy_in_parts(mesh.position, &guard->position));
   TRY(context.checkpoint());
-  TRY(guard->triangle.copy(mesh.triangle));
+  TRY(copy_in_parts(mesh.triangle, &guard->triangle));
   TRY(guard->area.assign(patches, 0.0));
   TRY(guard->step.assign(patches, -1.0));
   TRY(guard->frozen.assign(patches, 0));
@@ -35221,9 +35090,9 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
   FairMesh fixed;
   Guard guard(context);
   Unfolded safe(context);
-  TRY(safe.position.copy(mesh.position));
+  TRY(copy_in_parts(mesh.position, &safe.position));
   TRY(context.checkpoint());
-  TRY(safe.triangle.copy(mesh.triangle));
+  TRY(copy_in_parts(mesh.triangle, &safe.triangle));
   TRY(safe.folds.assign(patches, 0));
   TRY(safe.known.assign(patches, 0));
   if (!mesh.start_shape.empty()) TRY(harmonic_start(context, mesh, &report->residual));
@@ -35234,7 +35103,7 @@ Status fair(Context& context, const FairMesh& mesh, uint32_t patches, const Fair
     TRY(unfold(context, mesh, guard, &safe));
   }
   /* Soft curves take the normals that the last step smoothed; held ones have those given. */
-  TRY(curve_normal.copy(mesh.normal));
+  TRY(copy_in_parts(mesh.normal, &curve_normal));
   TRY(prepare_guard(context, mesh, patches, &guard));
   Foretold foretold(context);
   if (options.displacement_steps > 0) {
@@ -35636,7 +35505,7 @@ static void foretell_arc(const GivenCurves& curves, Span<const uint32_t> arc,
 /* Gives the nodes that arcs leave numbers of their own: they are few among the vertices. */
 static Status number_nodes(Context& context, size_t vertices, Span<ArcEnd> ends, uint32_t* count) {
   Array<uint32_t> number(context);
-  TRY(number.assign(vertices, k_none));
+  TRY(assign_in_parts(vertices, k_none, &number));
   *count = 0;
   for (ArcEnd& end : ends) {
     if (end.node == k_none) continue;
@@ -35660,8 +35529,8 @@ Status foretell_curvature(Context& context, const GivenCurves& curves, Array<dou
   Arcs arcs(context);
   Array<ArcEnd> ends(context);
   Array<NodeForm> forms(context);
-  TRY(curvature->assign(n, 0.0));
-  TRY(weight->assign(n, 0.0));
+  TRY(assign_in_parts(n, 0.0, curvature));
+  TRY(assign_in_parts(n, 0.0, weight));
   TRY(find_arcs(context, curves, k_least_window, &arcs));
   TRY(ends.resize(size_t{2} * arcs.count()));
   size_t work = 0;
@@ -35696,8 +35565,8 @@ namespace wireskin::sparse {
 Status elimination_tree(const Pattern& upper, Array<uint32_t>* parent) {
   const uint32_t n = static_cast<uint32_t>(upper.start.size() - 1);
   Array<uint32_t> ancestor(upper.start.context());  /* a shortcut towards the root */
-  TRY(ancestor.assign(n, k_none));
-  TRY(parent->assign(n, k_none));
+  TRY(assign_in_parts(n, k_none, &ancestor));
+  TRY(assign_in_parts(n, k_none, parent));
   for (uint32_t j = 0; j < n; ++j) {
     TRY(checkpoint_at_column(parent->context(), j));
     for (uint32_t k = upper.start[j]; k < upper.start[j + 1]; ++k) {
@@ -35723,8 +35592,8 @@ Status postorder(Span<const uint32_t> parent, Array<uint32_t>* order) {
   const uint32_t n = static_cast<uint32_t>(parent.size());
   Array<uint32_t> first_child(order->context());
   Array<uint32_t> sibling(order->context());
-  TRY(first_child.assign(n, k_none));
-  TRY(sibling.assign(n, k_none));
+  TRY(assign_in_parts(n, k_none, &first_child));
+  TRY(assign_in_parts(n, k_none, &sibling));
   TRY(order->reserve(n));
   order->clear();
   for (uint32_t j = n; j-- > 0;) {
@@ -35768,9 +35637,9 @@ Status column_counts(const Pattern& lower, Span<const uint32_t> parent, Array<ui
   Array<uint32_t> latest_first(context);   /* 1 + the greatest `first` among the leaves of a row */
   TRY(first.resize(n));
   TRY(ancestor.resize(n));
-  TRY(previous_leaf.assign(n, k_none));
-  TRY(latest_first.assign(n, 0));
-  TRY(count->assign(n, 0));
+  TRY(assign_in_parts(n, k_none, &previous_leaf));
+  TRY(assign_in_parts(n, 0, &latest_first));
+  TRY(assign_in_parts(n, 0, count));
   for (uint32_t j = 0; j < n; ++j) first[j] = ancestor[j] = j;
   for (uint32_t j = 0; j < n; ++j) {
     TRY(checkpoint_at_column(context, j));
@@ -35804,7 +35673,7 @@ namespace wireskin {
 
 /* Half the length of the curve edges at each vertex: how much of its curve a vertex stands for. */
 static Status curve_shares(const Surface& surface, Array<double>* share) {
-  TRY(share->assign(surface.position.size(), 0.0));
+  TRY(assign_in_parts(surface.position.size(), 0.0, share));
   for (size_t e = 0; e < surface.curve_edge.size(); e += 2) {
     const uint32_t a = surface.curve_edge[e], b = surface.curve_edge[e + 1];
     const double half = 0.5 * length(surface.position[b] - surface.position[a]);
@@ -35839,7 +35708,7 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
   }));
   if (!any) return {};
   TRY(curve_shares(surface, &constraints->share));
-  TRY(constraints->cutoff.assign(n, -1.0));
+  TRY(assign_in_parts(n, -1.0, &constraints->cutoff));
   for (size_t e = 0; e < surface.curve_edge.size(); ++e) {
     double& cutoff = constraints->cutoff[surface.curve_edge[e]];
     const uint32_t curve = surface.curve_edge_curve[e / 2];
@@ -35865,10 +35734,10 @@ Status constrain_vertices(const TriangleSet& set, double spacing, Constraints* c
   if (!soft) return {};
   Array<double> all(context);
   Array<uint32_t> count(context);
-  TRY(constraints->cutoff.assign(n, 0.0));
-  TRY(constraints->share.assign(n, 0.0));
-  TRY(all.assign(n, 0.0));
-  TRY(count.assign(n, 0));
+  TRY(assign_in_parts(n, 0.0, &constraints->cutoff));
+  TRY(assign_in_parts(n, 0.0, &constraints->share));
+  TRY(assign_in_parts(n, 0.0, &all));
+  TRY(assign_in_parts(n, 0, &count));
   TRY(in_parts(context, set.triangle.size(), [&](size_t h) {
     /* Inner edges are met twice, those of a border once; a quarter and a half of a length is near */
     /* enough. */
@@ -35970,7 +35839,7 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                            smooth::Method method, Surface* surface) {
   Counts* counts = &surface->counts;
   Array<uint32_t> vertex_patch(context);
-  TRY(vertex_patch.assign(piece.position.size(), 0));
+  TRY(assign_in_parts(piece.position.size(), 0, &vertex_patch));
   TRY(mesh::patches_of_vertices(context, piece.triangle, surface->patch.span(),
                                 vertex_patch.span()));
   const smooth::Places places = {piece.start, vertex_patch.span()};
@@ -36067,9 +35936,9 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
   if (!constraints.cutoff.empty()) {
     TRY(cutoff.resize(copies));
     TRY(share.resize(copies));
-    TRY(anchor.copy(creased->position.span()));
+    TRY(copy_in_parts(creased->position.span(), &anchor));
   }
-  TRY(given_normal.copy(creased->normal.span()));
+  TRY(copy_in_parts(creased->normal.span(), &given_normal));
   TRY(in_parts(context, copies, [&](size_t c) {
     const uint32_t v = creased->cut.origin[c];
     on_curve[c] = constraints.on_curve[v];
@@ -36266,12 +36135,9 @@ static uint64_t key_of_edge(uint32_t a, uint32_t b) {
 }
 
 static bool holds_key(Span<const uint64_t> sorted, uint64_t key) {
-  size_t low = 0, high = sorted.size();
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    (sorted[middle] < key ? low : high) = sorted[middle] < key ? middle + 1 : middle;
-  }
-  return low < sorted.size() && sorted[low] == key;
+  const size_t i =
+      first_failing(size_t{0}, sorted.size(), [&](size_t k) { return sorted[k] < key; });
+  return i < sorted.size() && sorted[i] == key;
 }
 
 /* Patches with a node that their border passes twice, like an eight. */
@@ -36497,12 +36363,13 @@ static Status read_mesh(const wsk_mesh& mesh, bool needs_normals, MeshStorage* s
   }
   TRY(storage->position.resize(mesh.vertex_count));
   TRY(storage->held.resize(mesh.vertex_count));
-  if (mesh.normals != nullptr) TRY(storage->normal.assign(mesh.vertex_count, Vec3{}));
+  if (mesh.normals != nullptr) TRY(assign_in_parts(mesh.vertex_count, Vec3{}, &storage->normal));
+  Pace pace(storage->held.context());
   for (size_t v = 0; v < mesh.vertex_count; ++v) {
     Place place;
     place.vertex = static_cast<uint32_t>(v);
     storage->held[v] = mesh.constrained[v] != 0;
-    if (v % 65536 == 65535) TRY(storage->held.context().checkpoint());
+    TRY(pace.after());
     TRY(read_position({mesh.positions, mesh.position_stride}, v, place, &storage->position[v]));
     if (mesh.normals != nullptr && storage->held[v]) {
       TRY(read_normal({mesh.normals, mesh.normal_stride}, v, place, &storage->normal[v]));
@@ -36859,7 +36726,7 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   inside.lids = static_cast<flow::Lids>(flow_options.lids);
   const flow::Polylines polylines = {input.start.span(), input.position.span(), input.number.span(),
                                      input.closed.span()};
-  TRY(made->given.copy(input.position.span()));
+  TRY(copy_in_parts(input.position.span(), &made->given));
   TRY(context.enter(Stage::curves));
   TRY(smooth_polylines(context, polylines, flow_smoothing_of(options, scale), input.position.span(),
                        made->normal.span(), &made->noise));
@@ -37201,7 +37068,8 @@ static Status connect(Context& context, const wsk_curve* curves, size_t count,
   TRY(read_raw_curves(curves, count, &wires));
   TRY(find_scale(wires.position.span(), &exponent));
   const Scale scale(-exponent);
-  for (Vec3& p : wires.position) p = scale(p);
+  TRY(in_parts(context, wires.samples(),
+               [&](size_t i) { wires.position[i] = scale(wires.position[i]); }));
   TRY(check_extents(wires));
   const double diagonal = box_diagonal(wires.position.span());
   network::ConnectOptions chosen;
@@ -37240,33 +37108,13 @@ static void drop_repeated(network::Wires* wires) {
 
 /* The points of sensor samples: by number, and the end of a closed curve is its beginning. */
 static Status weld_sensor(Context& context, network::Wires* wires) {
-  Array<uint32_t> order(context), name(context);
   network::DisjointSets sets(context);
-  const uint32_t n = wires->samples();
-  TRY(order.reserve(n));
-  TRY(name.assign(n, k_none));
-  TRY(sets.reset(n));
-  TRY(wires->point.resize(n));
+  TRY(sets.reset(wires->samples()));
   for (uint32_t c = 0; c < wires->curves(); ++c) {
     if (wires->closed[c]) sets.unite(wires->start[c], wires->start[c + 1] - 1);
   }
-  for (uint32_t i = 0; i < n; ++i) {
-    if (wires->number[i] != k_none) order.push_reserved(i);
-  }
-  const Span<const uint32_t> number = wires->number.span();
-  sort(order.span(), [number](uint32_t a, uint32_t b) {
-    return number[a] != number[b] ? number[a] < number[b] : a < b;
-  });
-  for (size_t k = 1; k < order.size(); ++k) {
-    if (number[order[k]] == number[order[k - 1]]) sets.unite(order[k], order[k - 1]);
-  }
-  wires->points = 0;
-  for (uint32_t i = 0; i < n; ++i) {
-    const uint32_t root = sets.find(i);
-    if (name[root] == k_none) name[root] = wires->points++;
-    wires->point[i] = name[root];
-  }
-  return {};
+  TRY(network::unite_numbers(*wires, &sets));
+  return network::number_points(&sets, wires);
 }
 
 /* The power of two that brings the longest curve to one half up to one. */
@@ -37410,6 +37258,8 @@ void wsk_network_free(wsk_network* network) {
 #pragma pop_macro("WIRESKIN_INLINE")
 #undef WIRESKIN_LANES
 #pragma pop_macro("WIRESKIN_LANES")
+#undef WIRESKIN_STEPS_PER_CHECKPOINT
+#pragma pop_macro("WIRESKIN_STEPS_PER_CHECKPOINT")
 #undef WIRESKIN_TARGET
 #pragma pop_macro("WIRESKIN_TARGET")
 #undef WIRESKIN_UNROLL

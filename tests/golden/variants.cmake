@@ -3,8 +3,8 @@
 # keeps floating point strict: it must do so itself, so it is the one that each compiler may fuse).
 # TIER=quick builds one of the variants; TIER=full the others: each compiler has each of the three both
 # ways, not all eight together. PACKAGE is the folder of embed/package, which has the variants of
-# separate sources that COMPILER makes. Sources are separate in batches of eight, for speed; the main
-# build compiles each by itself.
+# separate sources that COMPILER makes. Sources are separate in batches of eight, for speed; the
+# sanitized build compiles each by itself, golden tests among its own.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/tests/embed/start.cmake)
 include(${ROOT}/tests/embed/find_compilers.cmake)

@@ -23,7 +23,12 @@ using scenes::Way;
 
 namespace {
 
-constexpr int k_scales[] = {0, -498, -300, -151, -30, 10, 300, 498};  // powers of two
+// Powers of two. Results are the same at each but for the scale, so sanitizers see the extremes.
+#ifdef WIRESKIN_TESTS_SANITIZED
+constexpr int k_scales[] = {0, -498, 498};
+#else
+constexpr int k_scales[] = {0, -498, -300, -151, -30, 10, 300, 498};
+#endif
 
 // x, y, z in another order, mirrored where `turn` is odd.
 void turn_axes(std::vector<Curve>& curves, int turn) {

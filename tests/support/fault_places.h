@@ -24,7 +24,7 @@ inline uint64_t running_calls() {
   uint64_t hash = 0;
 #ifdef SCENES_HAS_BACKTRACE
 #ifdef WIRESKIN_TESTS_SANITIZED
-  constexpr int k_frames = 9;
+  constexpr int k_frames = 7;
 #else
   constexpr int k_frames = 48;
 #endif
