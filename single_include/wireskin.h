@@ -11528,7 +11528,7 @@ namespace {
 /* diagonal blocks once these are factored. */
 struct ColumnBlock {
   uint32_t first, count;
-  uint32_t from, depth;
+  uint32_t from = 0, depth = 0;
   DiagonalBlock diagonal[k_diagonal_blocks];
 };
 
@@ -22738,7 +22738,7 @@ static LoopRun segment_step(const Complex& complex, const CurveEdges& curves,
   uint32_t arc = arc_hint;
   if (arc == k_none || i < samples.start[arc] || i >= samples.start[arc + 1]) {
     const uint32_t arcs = static_cast<uint32_t>(samples.start.size() - 1);
-    arc = last_holding(0u, arcs, [&](uint32_t a) { return samples.start[a] <= i; });
+    arc = last_holding(uint32_t{0}, arcs, [&](uint32_t a) { return samples.start[a] <= i; });
   }
   const bool forward = complex.same_as[samples.at[i]] == u;
   return forward ? LoopRun{arc, i, i + 1} : LoopRun{arc, i + 1, i};
@@ -23478,7 +23478,7 @@ struct Bridge {
 }  /* namespace */
 
 static uint32_t loop_of(const Loops& loops, uint32_t v) {
-  return last_holding(0u, loops.count(), [&](uint32_t k) { return loops.start[k] <= v; });
+  return last_holding(uint32_t{0}, loops.count(), [&](uint32_t k) { return loops.start[k] <= v; });
 }
 
 static Bridge find_bridge(const Loops& loops, Span<const uint32_t> polygon,
@@ -27157,7 +27157,7 @@ namespace wireskin::network {
 
 static uint32_t curve_of_sample(const SampleNumbers& samples, uint32_t sample) {
   const uint32_t curves = static_cast<uint32_t>(samples.start.size()) - 1;
-  return last_holding(0u, curves, [&](uint32_t c) { return samples.start[c] <= sample; });
+  return last_holding(uint32_t{0}, curves, [&](uint32_t c) { return samples.start[c] <= sample; });
 }
 
 static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,

@@ -70,7 +70,7 @@ static LoopRun segment_step(const Complex& complex, const CurveEdges& curves,
   uint32_t arc = arc_hint;
   if (arc == k_none || i < samples.start[arc] || i >= samples.start[arc + 1]) {
     const uint32_t arcs = static_cast<uint32_t>(samples.start.size() - 1);
-    arc = last_holding(0u, arcs, [&](uint32_t a) { return samples.start[a] <= i; });
+    arc = last_holding(uint32_t{0}, arcs, [&](uint32_t a) { return samples.start[a] <= i; });
   }
   const bool forward = complex.same_as[samples.at[i]] == u;
   return forward ? LoopRun{arc, i, i + 1} : LoopRun{arc, i + 1, i};

@@ -137,7 +137,7 @@ struct Bridge {
 }  // namespace
 
 static uint32_t loop_of(const Loops& loops, uint32_t v) {
-  return last_holding(0u, loops.count(), [&](uint32_t k) { return loops.start[k] <= v; });
+  return last_holding(uint32_t{0}, loops.count(), [&](uint32_t k) { return loops.start[k] <= v; });
 }
 
 static Bridge find_bridge(const Loops& loops, Span<const uint32_t> polygon,

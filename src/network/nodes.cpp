@@ -8,7 +8,7 @@ namespace wireskin::network {
 
 static uint32_t curve_of_sample(const SampleNumbers& samples, uint32_t sample) {
   const uint32_t curves = static_cast<uint32_t>(samples.start.size()) - 1;
-  return last_holding(0u, curves, [&](uint32_t c) { return samples.start[c] <= sample; });
+  return last_holding(uint32_t{0}, curves, [&](uint32_t c) { return samples.start[c] <= sample; });
 }
 
 static Status fail_at(Code code, const char* sentence, const SampleNumbers& samples,

@@ -14,7 +14,7 @@ namespace {
 // diagonal blocks once these are factored.
 struct ColumnBlock {
   uint32_t first, count;
-  uint32_t from, depth;
+  uint32_t from = 0, depth = 0;
   DiagonalBlock diagonal[k_diagonal_blocks];
 };
 

@@ -1,9 +1,11 @@
 # Who can link the library (ARCHIVE, as it ships): C programs by tcc, gcc in strict C89 and musl (mingw:
 # golden/cross.cmake); a WebAssembly module that imports nothing (of WASM_OBJECT, which golden/cross/wasm
-# makes); and how large it is for a Cortex-M4. Toolchains that are not here are skipped by name.
+# makes); and how large it is for a Cortex-M4: not larger than `most_text`, which whoever adds code has
+# to raise knowingly. Toolchains that are not here are skipped by name.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/tests/embed/start.cmake)
 set(user ${ROOT}/tests/embed/c89_user.c)
+set(most_text 512000)
 
 # C programs on this machine, each by a compiler of its own.
 foreach(compiler "tcc" "gcc -std=c89 -pedantic-errors" "musl-gcc -static")
@@ -49,5 +51,8 @@ if(found)
     execute_process(COMMAND arm-none-eabi-size ${WORK}/library_m4.o OUTPUT_VARIABLE text)
     string(REGEX MATCH "\n *([0-9]+)" text "${text}")
     message(STATUS "Cortex-M4 at -Os: ${CMAKE_MATCH_1} bytes of text")
+    if(CMAKE_MATCH_1 GREATER most_text)
+      message(SEND_ERROR "the library has grown beyond ${most_text} bytes of text")
+    endif()
   endif()
 endif()

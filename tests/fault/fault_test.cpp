@@ -16,6 +16,13 @@ using scenes::FaultPlaces;
 using scenes::FaultyAllocator;
 using scenes::Scene;
 
+// How many places of each scene are tried beside those that other calls lead to.
+#ifdef WIRESKIN_TESTS_SANITIZED
+static constexpr size_t k_sample = 3;
+#else
+static constexpr size_t k_sample = 10;
+#endif
+
 struct Cancel {
   size_t calls = 0;
   size_t at = SIZE_MAX;
@@ -127,7 +134,7 @@ TEST_CASE("every allocation may fail, at all places") {
 
 TEST_CASE("every allocation may fail") {
   if (scenes::copies_at_all_places()) return;  // the case above
-  FaultPlaces places(10);
+  FaultPlaces places(k_sample);
   for (const Scene& scene : scenes::all()) {
     CAPTURE(scene.name);
     std::vector<uint64_t> calls;
@@ -207,7 +214,7 @@ TEST_CASE("every checkpoint may cancel, at all places") {
 
 TEST_CASE("every checkpoint may cancel") {
   if (scenes::copies_at_all_places()) return;  // the case above
-  FaultPlaces places(10);
+  FaultPlaces places(k_sample);
   for (const Scene& scene : scenes::all()) {
     CAPTURE(scene.name);
     std::vector<uint64_t> calls;

@@ -342,9 +342,14 @@ TEST_CASE("long loops cost no more than their points") {
 }
 
 TEST_CASE("random loops on a sphere") {
+#ifdef WIRESKIN_TESTS_SANITIZED
+  constexpr int k_rounds = 20;
+#else
+  constexpr int k_rounds = 40;
+#endif
   std::mt19937 random(20261);
   double least = 90.0, first_percent = 90.0;
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < k_rounds; ++round) {
     const Loop loop = on_sphere(20 + random() % 300, 0.1 * (1 + round % 10), &random);
     const Figures f = run(loop);
     REQUIRE(f.status.ok());
