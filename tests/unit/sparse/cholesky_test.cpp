@@ -399,7 +399,7 @@ TEST_CASE("cholesky: a factor of more than 2^32 entries is too large, at no cost
 }
 
 TEST_CASE("cholesky: every failing allocation and every cancel is a clean status") {
-  const Symmetric a = square(grid(60, 60));
+  const Symmetric a = square(grid(40, 40));
   const std::vector<double> b(a.n * 2, 1.0);
   const std::vector<double> truth = solution(a, b, 2);
   for (bool cancel : {false, true}) {
