@@ -77,6 +77,7 @@ void convergence_table(Page& page, Bounds& bounds) {
   for (const Start& start : k_starts) {
     for (const Method& m : k_methods) {
       if (m.method != WSK_METHOD_STANKO && m.method != WSK_METHOD_FAIR) continue;
+      if (bounds.alone() && m.method != WSK_METHOD_FAIR) continue;
       const Case& c = cases[start.of_case];
       Case named = c;
       named.name += text(", d = %g", start.spacing);
