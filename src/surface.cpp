@@ -9,6 +9,7 @@
 #include "network/size_limit.h"
 #include "surface/finish.h"
 #include "surface/fit.h"
+#include "surface/spoilt.h"
 #include "surface/verify.h"
 
 namespace wireskin {
@@ -214,7 +215,7 @@ Status surface_curves(Context& context, const CurveSet& set, const Settings& set
   TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
   const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
                        patches.start.span(), patches.placed.span(),  inner_edge.span(),
-                       &patches.shape,       &patches.start};
+                       &patches.shape};
   if (network::has_creases(vertices)) {
     network::CreasedMesh creased(context);
     TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
@@ -288,6 +289,20 @@ static Status take_triangles(const TriangleSet& set, Surface* surface) {
   });
 }
 
+// A caller's mesh has no parts that could go back, so if it is spoilt, that is a failure.
+static Status check_not_spoilt(Context& context, const TriangleSet& set, Surface* surface) {
+  Spoilt spoilt(context);
+  const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(),
+                             surface->patch.span(),    set.constrained,
+                             set.position,             set.triangle};
+  TRY(find_spoilt(context, mesh, 1, &spoilt));
+  if (spoilt.first == k_none) return {};
+  Place place;
+  place.triangle = spoilt.first;
+  return fail(Code::not_positive_definite,
+              "smoothing leaves the triangle without area, or takes it far away", place);
+}
+
 Status surface_triangles(Context& context, const TriangleSet& set, const Settings& settings,
                          Surface* surface) {
   Counts* counts = &surface->counts;
@@ -310,6 +325,7 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
   const Start start = {shapes.span(), smooth::Metric::space, topology.on_border.span(),
                        set.position};
   TRY(smooth_surface(context, start, constraints, settings.method, surface));
+  TRY(check_not_spoilt(context, set, surface));
   return verify_triangles(context, *surface);
 }
 

@@ -205,6 +205,31 @@ TEST_CASE("surface: triangles without area are refused before they divide") {
   CHECK(input.run().code == Code::bad_mesh);
 }
 
+// A tube so long that what spreads from its ends is lost in rounding, and one that is not.
+TEST_CASE("surface: a mesh that smoothing would flatten is refused") {
+  for (const double height : {4.0, 80.0}) {
+    for (const Method method : {Method::biharmonic, Method::triharmonic}) {
+      CAPTURE(height);
+      CAPTURE(static_cast<int>(method));
+      const uint32_t rows = 1 + static_cast<uint32_t>(2.0 * height);
+      TriangleInput input(tube(12, rows, height, false));
+      for (uint32_t v = 0; v < 12 * rows; ++v) {
+        input.held[v] = v < 12 || v >= 12 * (rows - 1);
+        input.normal[v].z = 0.0;
+      }
+      const Status status = input.run(method);
+      if (height < 10.0) {
+        CHECK(status.ok());
+        continue;
+      }
+      CHECK(status.code == Code::not_positive_definite);
+      REQUIRE(status.place.triangle < 24 * (rows - 1));
+      const uint32_t row = input.mesh.triangle[3 * size_t{status.place.triangle}] / 12;
+      CHECK(row > rows / 8);  // inside, not at the end
+    }
+  }
+}
+
 // Scaled to the size of such a network the spacing vanishes, which must not mean the default.
 TEST_CASE("surface: a spacing that underflows is too small") {
   wsk_report report;

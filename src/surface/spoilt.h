@@ -1,0 +1,43 @@
+// Patches that smoothing spoilt, of meshes that were sound before: they go back to what they were.
+//
+// What spreads linearly from the ends of a long tube falls off exponentially on its way. The first
+// four methods draw such a tube together to a line, on which its triangles end as needles that only
+// rounding keeps apart; and where a curvature is taken from what is left of its radius, as the
+// paper's method does, the next step blows it up to a million times its size. Patches whose border
+// all but hides in their plane end likewise. So a patch is spoilt where a triangle's height over
+// its longest edge is less than k_least_height of that edge, and less than any was in the patch
+// before, or where a vertex has gone farther than k_farthest diagonals of the whole.
+// In and out: the mesh as smoothed; the patches that are not spoilt keep what they have. Where soft
+// curves have moved so that a patch is spoilt even then, they go back too, along that patch. Meshes
+// that are not spoilt stay as they are, bit for bit, for one pass; else O(triangles) a round, of
+// which there are two or three, and never more than two for each patch.
+#pragma once
+
+#include "mesh/mesh.h"
+
+namespace wireskin {
+
+struct SmoothedMesh {
+  Span<Vec3> position;
+  Span<uint32_t> triangle;
+  Span<const uint32_t> patch;     // of each triangle
+  Span<const uint8_t> on_curve;   // of each vertex
+  Span<const Vec3> start;         // of each vertex, before the smoothing
+  Span<const uint32_t> unturned;  // the triangles before; edges were flipped inside patches only
+};
+
+struct Spoilt {
+  Array<uint8_t> patch;     // of each patch; empty where none is spoilt
+  uint32_t first = k_none;  // triangle that spoils one
+
+  explicit Spoilt(Context& context) : patch(context) {}
+};
+
+// `on_curve` is not used.
+Status find_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches, Spoilt* spoilt);
+
+// Of each of so many patches, whether it went back; empty where none had to.
+Status put_back_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches,
+                       Array<uint8_t>* back);
+
+}  // namespace wireskin
