@@ -370,7 +370,7 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
                        set.position};
   TRY(smooth_surface(context, start, constraints, settings.method, surface));
   TRY(check_not_spoilt(context, set, surface));
-  return verify_triangles(context, *surface);
+  return verify_triangles(context, set, *surface);
 }
 
 }  // namespace wireskin

@@ -205,6 +205,22 @@ TEST_CASE("surface: triangles without area are refused before they divide") {
   CHECK(input.run().code == Code::bad_mesh);
 }
 
+TEST_CASE("surface: a triangle that is all but flat as the caller gives it is no fault of ours") {
+  for (const double height : {1e-12, 1e-15, 1e-100}) {
+    CAPTURE(height);
+    Mesh sheet = grid(5, 5, 1.0);
+    // Its corner at the border, held as that is, drawn to the line between its neighbours.
+    const uint32_t a = sheet.triangle[0], b = sheet.triangle[1], c = sheet.triangle[2];
+    sheet.position[b] = 0.5 * (sheet.position[a] + sheet.position[c]);
+    sheet.position[b].z += height;
+    TriangleInput input(sheet);
+    for (uint8_t& h : input.held) h = 1;
+    for (Vec3& n : input.normal) n = {0, 0, 1};
+    input.held[12] = 0;
+    CHECK(input.run(Method::biharmonic).ok());
+  }
+}
+
 // A tube so long that what spreads from its ends is lost in rounding, and one that is not.
 TEST_CASE("surface: a mesh that smoothing would flatten is refused") {
   for (const double height : {4.0, 80.0}) {
