@@ -9,7 +9,7 @@ Status Beads::string_samples(size_t joints) {
   const size_t room = n + 2 * joints;
   if (room >= k_none) return fail(Code::too_large, "too many near places for 32-bit indices");
   TRY(bead.reserve(room));
-  TRY(touched.assign(room, 0));
+  TRY(assign_in_parts(room, 0, &touched));
   TRY(sets.reset(static_cast<uint32_t>(room)));
   PointMembers members(context());
   TRY(list_members(wires, &members));

@@ -81,7 +81,8 @@ Status BoxTree::build(Span<const Box> boxes) {
   TRY(order_.resize(count));
   TRY(node_.resize(nodes));
   if (count == 0) return {};
-  for (uint32_t i = 0; i < count; ++i) order_[i] = i;
+  TRY(in_parts<k_light_steps_per_checkpoint>(
+      order_.context(), count, [&](size_t i) { order_[i] = static_cast<uint32_t>(i); }));
   RangeStack todo;
   todo.push({0, 0, count});
   size_t work = 0;
