@@ -5,17 +5,17 @@
 
 namespace wireskin::network {
 
-static bool before(const DomainEdge& x, const DomainEdge& y) {
+static bool edge_before(const DomainEdge& x, const DomainEdge& y) {
   return x.a != y.a ? x.a < y.a : x.b < y.b;
 }
 
 void sort_edges(Span<DomainEdge> edges) {
-  sort(edges, before);
+  sort(edges, edge_before);
 }
 
 bool has_edge(Span<const DomainEdge> sorted, const DomainEdge& edge) {
-  const size_t i =
-      first_failing(size_t{0}, sorted.size(), [&](size_t k) { return before(sorted[k], edge); });
+  const size_t i = first_failing(size_t{0}, sorted.size(),
+                                 [&](size_t k) { return edge_before(sorted[k], edge); });
   return i < sorted.size() && sorted[i].a == edge.a && sorted[i].b == edge.b;
 }
 

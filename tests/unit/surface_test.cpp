@@ -1,4 +1,4 @@
-#include "surface.h"
+#include "surface/from_triangles.h"
 
 #include <doctest/doctest.h>
 
