@@ -207,7 +207,7 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
 Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
                          SnapResult* result) {
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
-  constexpr size_t k_steps_of_join = 512;  // it may pass all joints of an edge
+  constexpr size_t k_steps_of_join = 512;  // it may search all within four tolerances
   Pace pace(context());
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
