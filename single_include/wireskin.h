@@ -6453,8 +6453,11 @@ class BoxTree {
 /* A bead is a sample, or a place between samples that became one; beads of samples have the */
 /* sample's index. The beads of a curve are a list, those of a point a ring, and the set of a bead */
 /* names its point. In: wires, and how many joints there will be at most: each has room for two new */
-/* beads. No operation on them allocates; each costs the beads that it passes. Curves are made of */
-/* them again by network/write_beads.h. */
+/* beads. No operation on them allocates; each costs the beads that it passes, and the logarithm of */
+/* those made on its edge, for these are a search tree as well: one line may cross all others. */
+/* Curves are made of them again by network/write_beads.h. */
+/* */
+/* Source of the tree: R. Seidel, C. R. Aragon, "Randomized Search Trees", 1996. */
 
 namespace wireskin::network {
 
@@ -6464,6 +6467,9 @@ struct Bead {
   double part = 0.0;     /* of the edge after sample `edge`; zero for samples */
   uint32_t edge = k_none;
   uint32_t previous = k_none, next = k_none;
+  /* The beads made on an edge are a tree by their parts: those of less part, those of more. It */
+  /* hangs on the edge's sample as what is more. */
+  uint32_t lower = k_none, upper = k_none;
   uint32_t ring = k_none;
   uint32_t given = k_none;  /* the point before any joint */
   bool joined = false;      /* that had more than one sample */
@@ -6517,6 +6523,8 @@ struct Beads {
   uint32_t special_near(const BeadPlace& place, double to_end, double to_node) const;
   /* The place nearest to `target` on the same curve, within `reach` along it. */
   WirePlace nearest_place(const WirePlace& near, const Vec3& target, double reach) const;
+  /* Puts a new bead into the tree of its edge. */
+  void plant(uint32_t b);
   /* The bead at a place; a new one between beads. */
   uint32_t make_bead(const WirePlace& place);
   /* Makes the points of two beads one. */
@@ -7198,9 +7206,9 @@ Status join_guests(Grouping* g, Span<const uint8_t> settled);
 /* In: what the plane has joined (network/group_enclosed.h). Every side of a ring is a loop of its */
 /* own; of a ring of boundary curves only one is to have surface. Out: sides joined in pairs so that */
 /* the areas are small in sum (network/ring_pairs.h), and sides left alone that see both loops of a */
-/* pair well joined to it. Both are settled: rule 3 does not join them again. Rings near */
-/* other curves, and rings near such ones, are left to the rules that follow. O(n^2) in the distances */
-/* of loops where there are rings at all; so many bands as network/ring_bands.h looks at. */
+/* pair well joined to it. Both are settled: rule 3 does not join them again. Rings near other */
+/* curves, and rings near such ones, are left to the rules that follow. O(n^2) in the distances of */
+/* loops where there are rings at all; so many bands as network/ring_bands.h looks at. */
 
 namespace wireskin::network {
 
@@ -19428,7 +19436,7 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
 Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
                          SnapResult* result) {
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
-  constexpr size_t k_steps_of_join = 512;  /* it may pass all joints of an edge */
+  constexpr size_t k_steps_of_join = 512;  /* it may search all within four tolerances */
   Pace pace(context());
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
@@ -27208,9 +27216,11 @@ Status BoxTree::build(Span<const Box> boxes) {
 
 Status BoxTree::find(const Box& box, uint32_t after, Array<uint32_t>* found) const {
   found->clear();
+  Pace pace(order_.context());
   RangeStack todo;
   todo.push({0, 0, static_cast<uint32_t>(order_.size())});
   while (todo.size > 0) {
+    TRY(pace.after());
     const TreeRange range = todo.pop();
     if (range.count == 0 || !boxes_meet(box, node_[range.node])) continue;
     if (!range.is_leaf()) {
@@ -27223,8 +27233,8 @@ Status BoxTree::find(const Box& box, uint32_t after, Array<uint32_t>* found) con
       if (other > after && boxes_meet(box, boxes_[other])) TRY(found->push(other));
     }
   }
-  sort(found->span(), [](uint32_t a, uint32_t b) { return a < b; });
-  return {};
+  const auto ascending = [](uint32_t a, uint32_t b) { return a < b; };
+  return sort_in_parts(order_.context(), found->span(), ascending);
 }
 
 }  /* namespace wireskin::network */
@@ -27294,12 +27304,14 @@ Origin Beads::origin_of(const WirePlace& place) const {
 }
 
 BeadPlace Beads::locate(const WirePlace& place) const {
-  uint32_t b = place.edge;
-  if (place.part == 0.0) return {b, 0.0};
-  while (bead[bead[b].next].part != 0.0 && bead[bead[b].next].part <= place.part) {
-    b = bead[b].next;
+  if (place.part == 0.0) return {place.edge, 0.0};
+  uint32_t found = place.edge;
+  for (uint32_t b = bead[found].upper; b != k_none;) {
+    const bool beyond = bead[b].part > place.part;
+    if (!beyond) found = b;
+    b = beyond ? bead[b].lower : bead[b].upper;
   }
-  return {b, (place.part - bead[b].part) * edge_length(place.edge)};
+  return {found, (place.part - bead[found].part) * edge_length(place.edge)};
 }
 
 uint32_t Beads::special_near(const BeadPlace& place, double to_end, double to_node) const {
@@ -27357,6 +27369,34 @@ WirePlace Beads::nearest_place(const WirePlace& near, const Vec3& target, double
   return best;
 }
 
+/* A bead's rank in the tree, drawn by lot, so that the tree is shallow whatever the order in which */
+/* beads come: the mixing of S. Vigna's splitmix64 (2015), which gives no rank twice. */
+static uint64_t lot(uint32_t b) {
+  uint64_t z = (b + 1ull) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return z ^ (z >> 31);
+}
+
+void Beads::plant(uint32_t b) {
+  const double part = bead[b].part;
+  uint32_t* place = &bead[bead[b].edge].upper;
+  while (*place != k_none && lot(*place) > lot(b)) {
+    place = bead[*place].part < part ? &bead[*place].upper : &bead[*place].lower;
+  }
+  uint32_t rest = *place;
+  *place = b;
+  /* What was there is parted into what is less and what is more. */
+  uint32_t *less = &bead[b].lower, *more = &bead[b].upper;
+  while (rest != k_none) {
+    uint32_t*& end = bead[rest].part < part ? less : more;
+    *end = rest;
+    end = bead[rest].part < part ? &bead[rest].upper : &bead[rest].lower;
+    rest = *end;
+  }
+  *less = *more = k_none;
+}
+
 uint32_t Beads::make_bead(const WirePlace& place) {
   const BeadPlace at = locate(place);
   constexpr double k_same = 1e-3;  /* of the edge: nearer than this a sample serves */
@@ -27377,6 +27417,7 @@ uint32_t Beads::make_bead(const WirePlace& place) {
   bead[at.bead].to_next = at.behind;
   bead[fresh.next].previous = index;
   bead.push_reserved(fresh);
+  plant(index);
   return index;
 }
 
