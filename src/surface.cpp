@@ -292,9 +292,12 @@ static Status take_triangles(const TriangleSet& set, Surface* surface) {
 // A caller's mesh has no parts that could go back, so if it is spoilt, that is a failure.
 static Status check_not_spoilt(Context& context, const TriangleSet& set, Surface* surface) {
   Spoilt spoilt(context);
-  const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(),
-                             surface->patch.span(),    set.constrained,
-                             set.position,             set.triangle};
+  const SmoothedMesh mesh = {surface->position.span(),
+                             surface->triangle.span(),
+                             surface->patch.span(),
+                             set.constrained,
+                             set.position,
+                             set.triangle};
   TRY(find_spoilt(context, mesh, 1, &spoilt));
   if (spoilt.first == k_none) return {};
   Place place;

@@ -247,9 +247,12 @@ static Status try_method(Context& context, const mesh::Topology& topology, smoot
   if (*too_thin) return {};
   TRY(status);
   Spoilt spoilt(context);
-  const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(),
-                             surface->patch.span(),    topology.on_border.span(),
-                             start,                    unturned};
+  const SmoothedMesh mesh = {surface->position.span(),
+                             surface->triangle.span(),
+                             surface->patch.span(),
+                             topology.on_border.span(),
+                             start,
+                             unturned};
   TRY(find_spoilt(context, mesh, surface->counts.patches, &spoilt));
   *too_thin = spoilt.first != k_none;
   return {};

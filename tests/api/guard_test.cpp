@@ -1,6 +1,6 @@
-// The guards. That of the fair method: a patch that holds a whole feature, of which its border tells
-// nothing, keeps what the paper's steps gave instead of running away. That of all methods: a patch
-// in which smoothing leaves a triangle without area goes back to the mesh that it started from.
+// The guards. Of the fair method: a patch that holds a whole feature, of which its border tells
+// nothing, keeps what the paper's steps gave instead of running away. Of all methods: a patch that
+// smoothing spoils goes back to the mesh that it started from.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -246,7 +246,7 @@ TEST_CASE("a long tube between rings of three vertices has triangles with area")
 // distance, and the refinement of such a mesh to 67000 points and two seconds.
 TEST_CASE("a mesh too thin to be carried to the curves inside is not blown up") {
   const double s = std::sqrt(3.0) / 2.0;
-  const double xy[9][2] = {{1, 0},   {s, 0.5},   {0, 1},  {-0.5, s}, {-s, 0.5},
+  const double xy[9][2] = {{1, 0},     {s, 0.5},   {0, 1},  {-0.5, s}, {-s, 0.5},
                            {-s, -0.5}, {-0.5, -s}, {0, -1}, {s, -0.5}};
   Scene scene;
   scene.spacing = 1.5;

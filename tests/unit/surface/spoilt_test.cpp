@@ -40,8 +40,8 @@ struct Sheet {
   static uint32_t at(uint32_t x, uint32_t y) { return y * k_columns + x; }
   bool went_back(uint32_t x, uint32_t y) const { return position[at(x, y)] == start[at(x, y)]; }
   SmoothedMesh mesh() {
-    return {span(position), span(triangle), view(patch), view(on_curve), view(start),
-            view(unturned)};
+    return {span(position), span(triangle), view(patch),
+            view(on_curve), view(start),    view(unturned)};
   }
   uint32_t first() {
     Heap heap;
