@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "support/context.h"
+#include "support/fails_cleanly.h"
 
 using namespace unit;
 using namespace wireskin;
@@ -168,4 +168,15 @@ TEST_CASE("spoilt: soft curves go back where they alone flatten a patch, and so 
   CHECK(sheet.went_back(3, 2));   // with the curves of the first patch
   CHECK(!sheet.went_back(6, 2));  // the second patch is sound with its free vertices back
   CHECK(sheet.went_back(4, 1));
+}
+
+TEST_CASE("spoilt: whatever fails meanwhile, all memory is given back") {
+  Sheet sheet;
+  sheet.position[Sheet::at(4, 1)] = sheet.position[Sheet::at(5, 1)];
+  const std::vector<Vec3> smoothed = sheet.position;
+  fails_cleanly([&](Context& context) {
+    Array<uint8_t> back(context);
+    sheet.position = smoothed;
+    return put_back_spoilt(context, sheet.mesh(), 3, &back);
+  });
 }
