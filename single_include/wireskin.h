@@ -157,7 +157,8 @@ enum {
   WSK_ERROR_UNCONSTRAINED = 23,
   /* The linear system is not positive definite in double precision: the triangles are too thin. Or
      (wsk_smooth_mesh) its solution spoils the mesh: the triangle named has less height than 1e-10
-     of its longest edge, or went farther than ten diagonals. */
+     of its longest edge and less than any had in its component, or went farther than the diagonal
+     of the whole. */
   WSK_ERROR_NOT_POSITIVE_DEFINITE = 24
 };
 
@@ -361,7 +362,8 @@ typedef struct wsk_report {
                                the triangles that they started from: where one would have less
                                height than 1e-10 of its longest edge, as those of long tubes that
                                the first four methods draw together to a line, or go farther than
-                               ten diagonals. The view's patch_guarded says which */
+                               the diagonal of the whole. Soft curves at these stay where they
+                               were given. The view's patch_guarded says which */
   double
       noise_position;  /* standard deviation of each coordinate, estimated or given; 0 if neither */
   double noise_normal; /* the same of the unit normals' components */
@@ -2961,7 +2963,7 @@ struct Surface {
   Array<uint32_t> patch;       /* of each triangle */
   Array<uint32_t> curve_edge;  /* two vertices each */
   Array<uint32_t> curve_edge_curve;
-  Array<uint8_t> patch_guarded;  /* of each patch; empty where the method has no guard */
+  Array<uint8_t> patch_guarded;  /* of each patch: held back; empty where the method held none */
   PatchList patches;
 
   explicit Surface(Context& context)
@@ -6141,7 +6143,8 @@ Status raise_dome(Context& context, const Loops& loops, uint32_t held,
                   Span<const uint32_t> triangle, Span<Vec3> position);
 
 /* Completes a field of shifts that is given at the vertices before `held`: least in the squares of */
-/* its Laplacian, level across the border. A field that the mesh is too thin for stays zero inside. */
+/* its Laplacian, level across the border. A field that the mesh is too thin for stays zero inside; */
+/* so does one that would grow to more than a hundred times what is given. */
 Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
                     Span<const uint32_t> triangle, Span<Vec3> shift);
 
@@ -8410,27 +8413,24 @@ Status verify_triangles(Context& context, const TriangleSet& given, const Surfac
 /* ======== begin src/surface/spoilt.h ======== */
 /* Patches that smoothing spoilt, of meshes that were sound before: they go back to what they were. */
 /* */
-/* What spreads linearly from the ends of a long tube falls off exponentially on its way. The first */
-/* four methods draw such a tube together to a line, on which its triangles end as needles that only */
-/* rounding keeps apart; and where a curvature is taken from what is left of its radius, as the */
-/* paper's method does, the next step blows it up to a million times its size. Patches whose border */
-/* all but hides in their plane end likewise. So a patch is spoilt where a triangle's height over */
-/* its longest edge is less than k_least_height of that edge, and less than any was in the patch */
-/* before, or where a vertex has gone farther than k_farthest diagonals of the whole. */
-/* In and out: the mesh as smoothed; the patches that are not spoilt keep what they have. Where soft */
-/* curves have moved so that a patch is spoilt even then, they go back too, along that patch. Meshes */
-/* that are not spoilt stay as they are, bit for bit, for one pass; else O(triangles) a round, of */
-/* which there are two or three, and never more than two for each patch. */
+/* What spreads linearly from the ends of a long tube falls off exponentially. The first four */
+/* methods draw such a tube to a line, on which triangles end as needles that only rounding keeps */
+/* apart; and the curvature that the paper's method takes from what is left of its radius blows it */
+/* up to a million times its size. So a patch is spoilt where a triangle's height over its longest */
+/* edge is less than k_least_height of that edge, and less than any was in the patch before, or */
+/* where a vertex has gone farther than the diagonal of the whole. In and out: the mesh as smoothed; */
+/* patches that are not spoilt keep it, bit for bit, but for soft curves that they share with one */
+/* that went back. One pass where nothing is spoilt; else O(triangles) a round, mostly two. */
 
 namespace wireskin {
 
 struct SmoothedMesh {
   Span<Vec3> position;
   Span<uint32_t> triangle;
-  Span<const uint32_t> patch;     /* of each triangle */
-  Span<const uint8_t> on_curve;   /* of each vertex */
-  Span<const Vec3> start;         /* of each vertex, before the smoothing */
-  Span<const uint32_t> unturned;  /* the triangles before; edges were flipped inside patches only */
+  Span<const uint32_t> patch;        /* of each triangle */
+  Span<const Vec3> start;            /* of each vertex, before the smoothing */
+  Span<const uint32_t> unturned;     /* the triangles before; edges were flipped inside patches only */
+  Span<const uint32_t> origin = {};  /* of each vertex, the same on all sides of a crease; or empty */
 };
 
 struct Spoilt {
@@ -8440,7 +8440,6 @@ struct Spoilt {
   explicit Spoilt(Context& context) : patch(context) {}
 };
 
-/* `on_curve` is not used. */
 Status find_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches, Spoilt* spoilt);
 
 /* Of each of so many patches, whether it went back; empty where none had to. */
@@ -13686,16 +13685,17 @@ static Status take_triangles(const TriangleSet& set, Surface* surface) {
   });
 }
 
-/* A caller's mesh has no parts that could go back, so if it is spoilt, that is a failure. */
-static Status check_not_spoilt(Context& context, const TriangleSet& set, Surface* surface) {
+/* A caller's mesh has no parts that could go back, so if a component is spoilt, that is a failure. */
+static Status check_not_spoilt(Context& context, const TriangleSet& set,
+                               const mesh::Topology& topology, Surface* surface) {
   Spoilt spoilt(context);
-  const SmoothedMesh mesh = {surface->position.span(),
-                             surface->triangle.span(),
-                             surface->patch.span(),
-                             set.constrained,
-                             set.position,
-                             set.triangle};
-  TRY(find_spoilt(context, mesh, 1, &spoilt));
+  Array<uint32_t> component(context);
+  TRY(component.resize(set.triangle.size() / 3));
+  TRY(in_parts(context, component.size(),
+               [&](size_t t) { component[t] = topology.component[set.triangle[3 * t]]; }));
+  const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(), component.span(),
+                             set.position, set.triangle};
+  TRY(find_spoilt(context, mesh, topology.components, &spoilt));
   if (spoilt.first == k_none) return {};
   Place place;
   place.triangle = spoilt.first;
@@ -13725,7 +13725,7 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
   const Start start = {shapes.span(), smooth::Metric::space, topology.on_border.span(),
                        set.position};
   TRY(smooth_surface(context, start, constraints, settings.method, surface));
-  TRY(check_not_spoilt(context, set, surface));
+  TRY(check_not_spoilt(context, set, topology, surface));
   return verify_triangles(context, set, *surface);
 }
 
@@ -18070,8 +18070,7 @@ static Status try_method(Context& context, const mesh::Topology& topology, smoot
   TRY(status);
   Spoilt spoilt(context);
   const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(),
-                             surface->patch.span(),    topology.on_border.span(),
-                             start,                    unturned};
+                             surface->patch.span(), start, unturned};
   TRY(find_spoilt(context, mesh, surface->counts.patches, &spoilt));
   *too_thin = spoilt.first != k_none;
   return {};
@@ -19940,7 +19939,7 @@ static Status read_sensor_sample(const wsk_sensor_curve& curve, uint32_t index, 
   return {};
 }
 
-static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
+static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index, Pace* pace,
                                 SensorCurves* sensor) {
   if (curve.sample_count < (curve.closed != 0 ? 4u : 2u)) {
     return fail(Code::too_few_samples, "the curve has too few samples", curve_place(index));
@@ -19949,9 +19948,8 @@ static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
     return fail(Code::bad_argument, "the curve has no arc lengths or no tangents",
                 curve_place(index));
   }
-  Pace pace(sensor->arc.context());
   for (uint32_t i = 0; i < curve.sample_count; ++i) {
-    TRY(pace.after());
+    TRY(pace->after());
     TRY(read_sensor_sample(curve, index, i, sensor));
   }
   network::Wires& wires = sensor->wires;
@@ -19973,7 +19971,8 @@ Status read_sensor_curves(const wsk_sensor_curve* curves, size_t count, SensorCu
   TRY(sensor->tangent.reserve(total));
   TRY(sensor->to_next.reserve(count));
   sensor->wires.start.push_reserved(0);
-  for (uint32_t c = 0; c < count; ++c) TRY(read_sensor_curve(curves[c], c, sensor));
+  Pace pace(sensor->arc.context());
+  for (uint32_t c = 0; c < count; ++c) TRY(read_sensor_curve(curves[c], c, &pace, sensor));
   return {};
 }
 
@@ -25911,6 +25910,19 @@ Status raise_dome(Context& context, const Loops& loops, uint32_t held,
   return bend_least(bending, held, position);
 }
 
+/* Takes back a field that grew to many times what it spreads from: that is no shape, but needles */
+/* over which second differences are next to nothing. */
+static void take_back_overgrown(uint32_t held, Span<Vec3> shift) {
+  constexpr double k_most_growth = 100.0;
+  double given = 0.0, spread = 0.0;
+  for (uint32_t v = 0; v < shift.size(); ++v) {
+    double& greatest = v < held ? given : spread;
+    greatest = larger(greatest, length(shift[v]));
+  }
+  if (spread <= k_most_growth * given) return;
+  for (uint32_t v = held; v < shift.size(); ++v) shift[v] = Vec3{};
+}
+
 Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
                     Span<const uint32_t> triangle, Span<Vec3> shift) {
   if (held == position.size()) return {};
@@ -25918,7 +25930,10 @@ Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
   TRY(take_mesh(position, triangle, held, &bending));
   for (double& weight : bending.weight) weight = 1.0 / weight;
   const Status status = bend_least(bending, held, shift);
-  return status.code == Code::not_positive_definite ? Status{} : status;
+  if (status.code == Code::not_positive_definite) return {};
+  TRY(status);
+  take_back_overgrown(held, shift);
+  return {};
 }
 
 }  /* namespace wireskin::mesh */
@@ -27369,8 +27384,8 @@ WirePlace Beads::nearest_place(const WirePlace& near, const Vec3& target, double
   return best;
 }
 
-/* A bead's rank in the tree, drawn by lot, so that the tree is shallow whatever the order in which */
-/* beads come: the mixing of S. Vigna's splitmix64 (2015), which gives no rank twice. */
+/* A bead's rank in the tree, drawn by lot, so that the tree is shallow in any order of the beads that */
+/* was not made for these ranks: the mixing of S. Vigna's splitmix64 (2015), which gives no rank twice. */
 static uint64_t lot(uint32_t b) {
   uint64_t z = (b + 1ull) * 0x9e3779b97f4a7c15ull;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -36163,6 +36178,7 @@ struct Workpiece {
   Span<const Vec3> start = {};
   Span<const uint8_t> placed = {};
   Span<const uint32_t> inner_edge = {};
+  Span<const uint32_t> origin = {};  /* in the mesh not cut open */
 };
 
 }  /* namespace */
@@ -36184,7 +36200,7 @@ static Status hold_back_spoilt(Context& context, const Workpiece& piece,
   Array<uint8_t>& guarded = surface->patch_guarded;
   Array<uint8_t> back(context);
   const SmoothedMesh mesh = {piece.position, piece.triangle, surface->patch.span(),
-                             piece.on_curve, piece.start,    unturned};
+                             piece.start,    unturned,       piece.origin};
   TRY(put_back_spoilt(context, mesh, counts->patches, &back));
   if (back.empty()) return {};
   if (guarded.empty()) TRY(guarded.assign(counts->patches, 0));
@@ -36204,8 +36220,8 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                 vertex_patch.span()));
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
-    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve,    piece.held,
-                                   piece.on_border, start.metric, piece.soft,        piece.bare,
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
+                                   piece.on_border, start.metric, piece.soft,     piece.bare,
                                    places,          start.spent};
     return smooth::smooth(context, domain, method, {piece.position, piece.normal},
                           &counts->residual);
@@ -36332,7 +36348,9 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       creased->bare.span(),
       {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing},
       place.span(),
-      placed.span()};
+      placed.span(),
+      {},
+      creased->cut.origin.span()};
   TRY(smooth_piece(context, start, piece, method, surface));
   TRY(network::merge_creases(context, *creased, surface->position.span(),
                              surface->triangle.span()));
@@ -36652,10 +36670,8 @@ namespace wireskin {
 
 /* The solver aims at a residual of 1e-12; what is thinner than this no one can tell from rounding. */
 static constexpr double k_least_height = 1e-10;
-static constexpr double k_farthest = 10.0;
-
-/* How far a patch has gone back. */
-static constexpr uint8_t k_inside = 1, k_with_curves = 2;
+/* Soft curves carry it from patch to patch; where that does not end, all patches go back. */
+static constexpr uint32_t k_most_rounds = 8;
 
 namespace {
 
@@ -36679,6 +36695,10 @@ static bool is_thin(const Height& height) {
   return !(height.area > k_least_height * height.longest2);
 }
 
+static double share_of(const Height& height) {
+  return height.longest2 > 0.0 ? height.area / height.longest2 : 0.0;
+}
+
 /* The square of the distance that no vertex may go. */
 static Status find_farthest(Context& context, Span<const Vec3> start, double* farthest2) {
   Vec3 low = start[0], high = start[0];
@@ -36687,7 +36707,7 @@ static Status find_farthest(Context& context, Span<const Vec3> start, double* fa
     low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
     high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
   }));
-  *farthest2 = k_farthest * k_farthest * dot(high - low, high - low);
+  *farthest2 = dot(high - low, high - low);
   return {};
 }
 
@@ -36714,8 +36734,7 @@ static Status find_least(Context& context, Span<const Vec3> position, Span<const
   return in_parts(context, patch.size(), [&](size_t t) {
     const Height height = height_of(position, triangle, t);
     if (!is_thin(height)) return;
-    const double share = height.longest2 > 0.0 ? height.area / height.longest2 : 0.0;
-    least[patch[t]] = smaller(least[patch[t]], share);
+    least[patch[t]] = smaller(least[patch[t]], share_of(height));
   });
 }
 
@@ -36727,15 +36746,14 @@ Status find_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches,
   TRY(find_farthest(context, mesh.start, &farthest2));
   TRY(may_be_spoilt(context, mesh, farthest2, &may_be));
   if (!may_be) return {};
-  Array<double> before(context), least(context);
+  Array<double> before(context);
   TRY(before.resize(patches));
-  TRY(least.resize(patches));
   TRY(find_least(context, mesh.start, mesh.unturned, mesh.patch, before.span()));
-  TRY(find_least(context, mesh.position, mesh.triangle, mesh.patch, least.span()));
   TRY(spoilt->patch.assign(patches, 0));
   TRY(in_parts(context, mesh.patch.size(), [&](size_t t) {
     const uint32_t p = mesh.patch[t];
-    bool bad = least[p] < before[p] && is_thin(height_of(mesh.position, mesh.triangle, t));
+    const Height height = height_of(mesh.position, mesh.triangle, t);
+    bool bad = is_thin(height) && share_of(height) < before[p];
     for (size_t h = 3 * t; h < 3 * t + 3; ++h) {
       bad = bad || is_far(mesh, farthest2, mesh.triangle[h]);
     }
@@ -36747,13 +36765,18 @@ Status find_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches,
   return {};
 }
 
+/* With its curves a patch is what it was. A vertex goes back on every side of a crease. */
 static Status put_back(Context& context, const SmoothedMesh& mesh, Span<const uint8_t> back) {
-  return in_parts(context, mesh.triangle.size(), [&](size_t h) {
-    const uint8_t step = back[mesh.patch[h / 3]];
-    if (step == 0) return;
-    const uint32_t v = mesh.unturned[h];
-    mesh.triangle[h] = v;
-    if (!mesh.on_curve[v] || step == k_with_curves) mesh.position[v] = mesh.start[v];
+  const auto origin_of = [&](size_t v) { return mesh.origin.empty() ? v : mesh.origin[v]; };
+  Array<uint8_t> goes(context);
+  TRY(assign_in_parts(mesh.position.size(), 0, &goes));
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
+    if (!back[mesh.patch[h / 3]]) return;
+    mesh.triangle[h] = mesh.unturned[h];
+    goes[origin_of(mesh.unturned[h])] = 1;
+  }));
+  return in_parts(context, mesh.position.size(), [&](size_t v) {
+    if (goes[origin_of(v)]) mesh.position[v] = mesh.start[v];
   });
 }
 
@@ -36761,14 +36784,13 @@ Status put_back_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patc
                        Array<uint8_t>* back) {
   Spoilt spoilt(context);
   back->clear();
-  for (;;) {
+  for (uint32_t round = 0;; ++round) {
     TRY(find_spoilt(context, mesh, patches, &spoilt));
     if (spoilt.first == k_none) return {};
     if (back->empty()) TRY(back->assign(patches, 0));
+    WIRESKIN_ASSERT(round <= k_most_rounds && !(*back)[mesh.patch[spoilt.first]]);
     for (size_t p = 0; p < patches; ++p) {
-      /* With its curves a patch is what it was, so this ends. */
-      WIRESKIN_ASSERT(!spoilt.patch[p] || (*back)[p] < k_with_curves);
-      if (spoilt.patch[p]) (*back)[p] = (*back)[p] == 0 ? k_inside : k_with_curves;
+      if (spoilt.patch[p] || round == k_most_rounds) (*back)[p] = 1;
     }
     TRY(put_back(context, mesh, back->span()));
     TRY(context.checkpoint());

@@ -93,7 +93,7 @@ struct Surface {
   Array<uint32_t> patch;       // of each triangle
   Array<uint32_t> curve_edge;  // two vertices each
   Array<uint32_t> curve_edge_curve;
-  Array<uint8_t> patch_guarded;  // of each patch; empty where the method has no guard
+  Array<uint8_t> patch_guarded;  // of each patch: held back; empty where the method held none
   PatchList patches;
 
   explicit Surface(Context& context)

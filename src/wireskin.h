@@ -151,7 +151,8 @@ enum {
   WSK_ERROR_UNCONSTRAINED = 23,
   /* The linear system is not positive definite in double precision: the triangles are too thin. Or
      (wsk_smooth_mesh) its solution spoils the mesh: the triangle named has less height than 1e-10
-     of its longest edge, or went farther than ten diagonals. */
+     of its longest edge and less than any had in its component, or went farther than the diagonal
+     of the whole. */
   WSK_ERROR_NOT_POSITIVE_DEFINITE = 24
 };
 
@@ -355,7 +356,8 @@ typedef struct wsk_report {
                                the triangles that they started from: where one would have less
                                height than 1e-10 of its longest edge, as those of long tubes that
                                the first four methods draw together to a line, or go farther than
-                               ten diagonals. The view's patch_guarded says which */
+                               the diagonal of the whole. Soft curves at these stay where they
+                               were given. The view's patch_guarded says which */
   double
       noise_position;  /* standard deviation of each coordinate, estimated or given; 0 if neither */
   double noise_normal; /* the same of the unit normals' components */

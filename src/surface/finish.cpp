@@ -67,6 +67,7 @@ struct Workpiece {
   Span<const Vec3> start = {};
   Span<const uint8_t> placed = {};
   Span<const uint32_t> inner_edge = {};
+  Span<const uint32_t> origin = {};  // in the mesh not cut open
 };
 
 }  // namespace
@@ -88,7 +89,7 @@ static Status hold_back_spoilt(Context& context, const Workpiece& piece,
   Array<uint8_t>& guarded = surface->patch_guarded;
   Array<uint8_t> back(context);
   const SmoothedMesh mesh = {piece.position, piece.triangle, surface->patch.span(),
-                             piece.on_curve, piece.start,    unturned};
+                             piece.start,    unturned,       piece.origin};
   TRY(put_back_spoilt(context, mesh, counts->patches, &back));
   if (back.empty()) return {};
   if (guarded.empty()) TRY(guarded.assign(counts->patches, 0));
@@ -108,8 +109,8 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                 vertex_patch.span()));
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
-    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve,    piece.held,
-                                   piece.on_border, start.metric, piece.soft,        piece.bare,
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
+                                   piece.on_border, start.metric, piece.soft,     piece.bare,
                                    places,          start.spent};
     return smooth::smooth(context, domain, method, {piece.position, piece.normal},
                           &counts->residual);
@@ -236,7 +237,9 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       creased->bare.span(),
       {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing},
       place.span(),
-      placed.span()};
+      placed.span(),
+      {},
+      creased->cut.origin.span()};
   TRY(smooth_piece(context, start, piece, method, surface));
   TRY(network::merge_creases(context, *creased, surface->position.span(),
                              surface->triangle.span()));

@@ -248,8 +248,7 @@ static Status try_method(Context& context, const mesh::Topology& topology, smoot
   TRY(status);
   Spoilt spoilt(context);
   const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(),
-                             surface->patch.span(),    topology.on_border.span(),
-                             start,                    unturned};
+                             surface->patch.span(), start, unturned};
   TRY(find_spoilt(context, mesh, surface->counts.patches, &spoilt));
   *too_thin = spoilt.first != k_none;
   return {};

@@ -59,16 +59,17 @@ static Status take_triangles(const TriangleSet& set, Surface* surface) {
   });
 }
 
-// A caller's mesh has no parts that could go back, so if it is spoilt, that is a failure.
-static Status check_not_spoilt(Context& context, const TriangleSet& set, Surface* surface) {
+// A caller's mesh has no parts that could go back, so if a component is spoilt, that is a failure.
+static Status check_not_spoilt(Context& context, const TriangleSet& set,
+                               const mesh::Topology& topology, Surface* surface) {
   Spoilt spoilt(context);
-  const SmoothedMesh mesh = {surface->position.span(),
-                             surface->triangle.span(),
-                             surface->patch.span(),
-                             set.constrained,
-                             set.position,
-                             set.triangle};
-  TRY(find_spoilt(context, mesh, 1, &spoilt));
+  Array<uint32_t> component(context);
+  TRY(component.resize(set.triangle.size() / 3));
+  TRY(in_parts(context, component.size(),
+               [&](size_t t) { component[t] = topology.component[set.triangle[3 * t]]; }));
+  const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(), component.span(),
+                             set.position, set.triangle};
+  TRY(find_spoilt(context, mesh, topology.components, &spoilt));
   if (spoilt.first == k_none) return {};
   Place place;
   place.triangle = spoilt.first;
@@ -98,7 +99,7 @@ Status surface_triangles(Context& context, const TriangleSet& set, const Setting
   const Start start = {shapes.span(), smooth::Metric::space, topology.on_border.span(),
                        set.position};
   TRY(smooth_surface(context, start, constraints, settings.method, surface));
-  TRY(check_not_spoilt(context, set, surface));
+  TRY(check_not_spoilt(context, set, topology, surface));
   return verify_triangles(context, set, *surface);
 }
 

@@ -7,10 +7,8 @@ namespace wireskin {
 
 // The solver aims at a residual of 1e-12; what is thinner than this no one can tell from rounding.
 static constexpr double k_least_height = 1e-10;
-static constexpr double k_farthest = 10.0;
-
-// How far a patch has gone back.
-static constexpr uint8_t k_inside = 1, k_with_curves = 2;
+// Soft curves carry it from patch to patch; where that does not end, all patches go back.
+static constexpr uint32_t k_most_rounds = 8;
 
 namespace {
 
@@ -34,6 +32,10 @@ static bool is_thin(const Height& height) {
   return !(height.area > k_least_height * height.longest2);
 }
 
+static double share_of(const Height& height) {
+  return height.longest2 > 0.0 ? height.area / height.longest2 : 0.0;
+}
+
 // The square of the distance that no vertex may go.
 static Status find_farthest(Context& context, Span<const Vec3> start, double* farthest2) {
   Vec3 low = start[0], high = start[0];
@@ -42,7 +44,7 @@ static Status find_farthest(Context& context, Span<const Vec3> start, double* fa
     low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
     high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
   }));
-  *farthest2 = k_farthest * k_farthest * dot(high - low, high - low);
+  *farthest2 = dot(high - low, high - low);
   return {};
 }
 
@@ -69,8 +71,7 @@ static Status find_least(Context& context, Span<const Vec3> position, Span<const
   return in_parts(context, patch.size(), [&](size_t t) {
     const Height height = height_of(position, triangle, t);
     if (!is_thin(height)) return;
-    const double share = height.longest2 > 0.0 ? height.area / height.longest2 : 0.0;
-    least[patch[t]] = smaller(least[patch[t]], share);
+    least[patch[t]] = smaller(least[patch[t]], share_of(height));
   });
 }
 
@@ -82,15 +83,14 @@ Status find_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches,
   TRY(find_farthest(context, mesh.start, &farthest2));
   TRY(may_be_spoilt(context, mesh, farthest2, &may_be));
   if (!may_be) return {};
-  Array<double> before(context), least(context);
+  Array<double> before(context);
   TRY(before.resize(patches));
-  TRY(least.resize(patches));
   TRY(find_least(context, mesh.start, mesh.unturned, mesh.patch, before.span()));
-  TRY(find_least(context, mesh.position, mesh.triangle, mesh.patch, least.span()));
   TRY(spoilt->patch.assign(patches, 0));
   TRY(in_parts(context, mesh.patch.size(), [&](size_t t) {
     const uint32_t p = mesh.patch[t];
-    bool bad = least[p] < before[p] && is_thin(height_of(mesh.position, mesh.triangle, t));
+    const Height height = height_of(mesh.position, mesh.triangle, t);
+    bool bad = is_thin(height) && share_of(height) < before[p];
     for (size_t h = 3 * t; h < 3 * t + 3; ++h) {
       bad = bad || is_far(mesh, farthest2, mesh.triangle[h]);
     }
@@ -102,13 +102,18 @@ Status find_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches,
   return {};
 }
 
+// With its curves a patch is what it was. A vertex goes back on every side of a crease.
 static Status put_back(Context& context, const SmoothedMesh& mesh, Span<const uint8_t> back) {
-  return in_parts(context, mesh.triangle.size(), [&](size_t h) {
-    const uint8_t step = back[mesh.patch[h / 3]];
-    if (step == 0) return;
-    const uint32_t v = mesh.unturned[h];
-    mesh.triangle[h] = v;
-    if (!mesh.on_curve[v] || step == k_with_curves) mesh.position[v] = mesh.start[v];
+  const auto origin_of = [&](size_t v) { return mesh.origin.empty() ? v : mesh.origin[v]; };
+  Array<uint8_t> goes(context);
+  TRY(assign_in_parts(mesh.position.size(), 0, &goes));
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
+    if (!back[mesh.patch[h / 3]]) return;
+    mesh.triangle[h] = mesh.unturned[h];
+    goes[origin_of(mesh.unturned[h])] = 1;
+  }));
+  return in_parts(context, mesh.position.size(), [&](size_t v) {
+    if (goes[origin_of(v)]) mesh.position[v] = mesh.start[v];
   });
 }
 
@@ -116,14 +121,13 @@ Status put_back_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patc
                        Array<uint8_t>* back) {
   Spoilt spoilt(context);
   back->clear();
-  for (;;) {
+  for (uint32_t round = 0;; ++round) {
     TRY(find_spoilt(context, mesh, patches, &spoilt));
     if (spoilt.first == k_none) return {};
     if (back->empty()) TRY(back->assign(patches, 0));
+    WIRESKIN_ASSERT(round <= k_most_rounds && !(*back)[mesh.patch[spoilt.first]]);
     for (size_t p = 0; p < patches; ++p) {
-      // With its curves a patch is what it was, so this ends.
-      WIRESKIN_ASSERT(!spoilt.patch[p] || (*back)[p] < k_with_curves);
-      if (spoilt.patch[p]) (*back)[p] = (*back)[p] == 0 ? k_inside : k_with_curves;
+      if (spoilt.patch[p] || round == k_most_rounds) (*back)[p] = 1;
     }
     TRY(put_back(context, mesh, back->span()));
     TRY(context.checkpoint());

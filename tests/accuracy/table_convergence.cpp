@@ -26,7 +26,7 @@ Error between_levels(const Result& coarse, const Result& fine) {
   return error;
 }
 
-// Spacings at the coarsest level: smoothing.md, section 4, in the order of the cases.
+// Spacings at the coarsest level.
 struct Start {
   size_t of_case;
   double spacing;

@@ -5,6 +5,7 @@
 // What the bounds need and nothing more, on standard output: accuracy_tables --bounds.
 #include "accuracy/tables.h"
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 
@@ -21,6 +22,11 @@ const Part k_parts[] = {
     {"real", accuracy::real_table},
 };
 
+bool is_part(const std::string& word) {
+  return std::any_of(std::begin(k_parts), std::end(k_parts),
+                     [&](const Part& part) { return word == part.name; });
+}
+
 void write_verdict(accuracy::Page& page, const accuracy::Bounds& bounds) {
   page.heading("Bounds");
   page.paragraph(accuracy::text("%zu bounds, %zu broken.", bounds.asked(), bounds.broken().size()));
@@ -30,6 +36,13 @@ void write_verdict(accuracy::Page& page, const accuracy::Bounds& bounds) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  for (int i = 1; i < count; ++i) {
+    const std::string word = arguments[i];
+    const bool known = i > 1 ? is_part(word) : word == "--bounds" || word[0] != '-';
+    if (known) continue;
+    std::fprintf(stderr, "%s: neither a table nor --bounds\n", arguments[i]);
+    return 2;
+  }
   const bool bounds_alone = count > 1 && std::strcmp(arguments[1], "--bounds") == 0;
   accuracy::Page page(count > 1 && !bounds_alone ? arguments[1] : nullptr);
   if (page.failed()) {
