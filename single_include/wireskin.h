@@ -27384,8 +27384,9 @@ WirePlace Beads::nearest_place(const WirePlace& near, const Vec3& target, double
   return best;
 }
 
-/* A bead's rank in the tree, drawn by lot, so that the tree is shallow in any order of the beads that */
-/* was not made for these ranks: the mixing of S. Vigna's splitmix64 (2015), which gives no rank twice. */
+/* A bead's rank in the tree, drawn by lot, so that the tree is shallow in any order of the beads */
+/* that was not made for these ranks: the mixing of S. Vigna's splitmix64 (2015), which gives no rank */
+/* twice. */
 static uint64_t lot(uint32_t b) {
   uint64_t z = (b + 1ull) * 0x9e3779b97f4a7c15ull;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
