@@ -155,7 +155,10 @@ enum {
   /* wsk_smooth_mesh: a connected component has no constrained vertex, or a vertex of an open border
      is free. */
   WSK_ERROR_UNCONSTRAINED = 23,
-  /* The linear system is not positive definite in double precision: the triangles are too thin. */
+  /* The linear system is not positive definite in double precision: the triangles are too thin. Or
+     (wsk_smooth_mesh) its solution spoils the mesh: the triangle named has less height than 1e-10
+     of its longest edge and less than any had in its component, or went farther than the diagonal
+     of the whole. */
   WSK_ERROR_NOT_POSITIVE_DEFINITE = 24
 };
 
@@ -355,7 +358,12 @@ typedef struct wsk_report {
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
   uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them,
                                or that it or that method put back to an earlier step because the
-                               last one folded them; the view's patch_guarded says which */
+                               last one folded them; and those that any method spoilt, which keep
+                               the triangles that they started from: where one would have less
+                               height than 1e-10 of its longest edge, as those of long tubes that
+                               the first four methods draw together to a line, or go farther than
+                               the diagonal of the whole. Soft curves at these stay where they
+                               were given. The view's patch_guarded says which */
   double
       noise_position;  /* standard deviation of each coordinate, estimated or given; 0 if neither */
   double noise_normal; /* the same of the unit normals' components */
@@ -529,7 +537,8 @@ typedef struct wsk_surface_view {
   const uint32_t*
       curve_edge_curve;           /* 1 an edge: the caller's curve; both null for a caller's mesh */
   const uint8_t* patch_guarded;   /* 1 a patch: 1 where it was held back, see guarded_patches; null
-                                     for a caller's mesh and for methods that hold nothing back */
+                                     for a caller's mesh, and for the first four methods where
+                                     nothing was held back */
   const uint8_t* patch_way;       /* 1 a patch: WSK_PATCH_...; null, like the four that follow, for
                                      surfaces of a caller's mesh and of a flow */
   const wsk_status* patch_status; /* 1 a patch: WSK_OK, or why it was left out */
@@ -846,7 +855,7 @@ enum {
   WSK_FLOW_NORMALS_CONTRADICTING = 5,
   /* Pairs of triangles that crossed after the smoothing, a thousand at most. */
   WSK_FLOW_NORMALS_CROSSING = 6,
-  /* Triangles are too thin for the smoothing; no places. */
+  /* Triangles are too thin for the smoothing, or after it; no places. */
   WSK_FLOW_NORMALS_TOO_THIN = 7,
   WSK_FLOW_NORMALS_COUNT = 8
 };
@@ -2848,9 +2857,8 @@ struct Domain {
   /* as it is found stands for it. Empty: none. */
   Span<const uint8_t> bare = {};
   Places places = {};  /* for the order of elimination */
-  /* Given back once `shape` and `places.position`, their views, have been read. */
+  /* Given back once `shape`, its view, has been read. */
   Array<mesh::TriangleShape>* spent = nullptr;
-  Array<Vec3>* spent_places = nullptr;
 };
 
 /* Position and normal of every vertex: in, those of the held ones; out, all. */
@@ -2866,8 +2874,9 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
 /* ======== end src/smooth/smooth.h ======== */
 
 /* ======== begin src/surface.h ======== */
-/* The pipeline as one readable page: curves -> network -> patches -> smooth -> mesh; and the */
-/* shorter one for a mesh of the caller's, -> smooth -> mesh. */
+/* The pipeline as one readable page: curves -> network -> patches -> smooth -> mesh. Shorter ones */
+/* begin with a mesh of the caller's (surface/from_triangles.h) and with a flow */
+/* (surface/from_flow.h). */
 /* */
 /* In: checked, finite input with unit normals, scaled so that its extent is about one (api.cpp does */
 /* both). Out: a Surface. Counts are filled in as the work goes on, so that a failure can be */
@@ -2954,7 +2963,7 @@ struct Surface {
   Array<uint32_t> patch;       /* of each triangle */
   Array<uint32_t> curve_edge;  /* two vertices each */
   Array<uint32_t> curve_edge_curve;
-  Array<uint8_t> patch_guarded;  /* of each patch; empty where the method has no guard */
+  Array<uint8_t> patch_guarded;  /* of each patch: held back; empty where the method held none */
   PatchList patches;
 
   explicit Surface(Context& context)
@@ -2975,9 +2984,6 @@ struct Surface {
 
 Status surface_curves(Context& context, const CurveSet& curves, const Settings& settings,
                       Surface* surface);
-
-Status surface_triangles(Context& context, const TriangleSet& mesh, const Settings& settings,
-                         Surface* surface);
 
 }  /* namespace wireskin */
 /* ======== end src/surface.h ======== */
@@ -3134,6 +3140,22 @@ Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage)
 
 }  /* namespace wireskin::api */
 /* ======== end src/api/curves.h ======== */
+
+/* ======== begin src/surface/from_triangles.h ======== */
+/* From a mesh of the caller's, some of its vertices held, to a smooth surface: the same triangles. */
+/* */
+/* In: positions, triangles, what is constrained. Out: a Surface of one patch. Fails, naming vertex */
+/* or triangle, where the mesh is no manifold, a triangle has no area, a component or a vertex of an */
+/* open border is held by nothing, or smoothing spoils the mesh (surface/spoilt.h). Cost: that of */
+/* the method. */
+
+namespace wireskin {
+
+Status surface_triangles(Context& context, const TriangleSet& mesh, const Settings& settings,
+                         Surface* surface);
+
+}  /* namespace wireskin */
+/* ======== end src/surface/from_triangles.h ======== */
 
 /* ======== begin src/flow/complex.h ======== */
 /* The Delaunay complex of a point set with its radius function: tetrahedra, triangles and edges */
@@ -3451,6 +3473,14 @@ struct StraightLines {
   uint32_t common(uint32_t u, uint32_t v, uint32_t w) const;
 };
 
+/* The complex with what is known in it of the curves. */
+struct Drawing {
+  const Complex& complex;
+  const Samples& samples;
+  const CurveEdges& curves;
+  const StraightLines& lines;
+};
+
 Status find_straight_lines(const Complex& complex, const Samples& samples, StraightLines* lines);
 
 }  /* namespace wireskin::flow */
@@ -3507,9 +3537,8 @@ struct FlatFaces {
 inline constexpr size_t k_most_face_work = size_t{1} << 26;
 
 /* `noise`: the standard deviation of the samples that was taken out, as corners have theirs still. */
-Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, double noise,
-                       FlatFaces* faces, size_t most_work = k_most_face_work);
+Status find_flat_faces(Context& context, const Drawing& drawing, double noise, FlatFaces* faces,
+                       size_t most_work = k_most_face_work);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_faces.h ======== */
@@ -3595,9 +3624,8 @@ namespace wireskin::flow {
 enum class Lids : uint8_t { single, all, none };
 
 /* `lids`: the faces that are lids, whether they were to stay or not. */
-Status find_lids(Context& context, const Complex& complex, const Samples& samples,
-                 const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
-                 Array<uint32_t>* lids);
+Status find_lids(Context& context, const Drawing& drawing, const FlatFaces& faces, Lids which,
+                 FaceRims* rims, Array<uint32_t>* lids);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_lids.h ======== */
@@ -3674,9 +3702,8 @@ struct FlatCells {
       : turn(context), need(context), lid_start(context), lid_middle(context) {}
 };
 
-Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
-                       Lids lids, FlatCells* cells);
+Status find_flat_cells(Context& context, const Drawing& drawing, const FlatFaces& faces, Lids lids,
+                       FlatCells* cells);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/flat_cells.h ======== */
@@ -5446,12 +5473,11 @@ inline bool near_plane(const FacePlane& plane, const Vec3& p) {
   return std::fabs(dot(p - plane.at, plane.normal)) <= plane.flat;
 }
 
-Status find_curves_across(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                          const StraightLines& lines, CurvesAcross* across);
+Status find_curves_across(const Drawing& drawing, CurvesAcross* across);
 
 /* `seed` tells planes apart. */
-bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
-                uint32_t seed, uint32_t t, CurvesAcross* across);
+bool is_crossed(const Drawing& drawing, const FacePlane& plane, uint32_t seed, uint32_t t,
+                CurvesAcross* across);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/face_crossings.h ======== */
@@ -5499,8 +5525,8 @@ struct FaceCells {
 Status find_face_cells(const Complex& complex, const FlatFaces& faces, FaceRims* rims,
                        FaceCells* cells);
 
-Status merge_cells(Context& context, const Samples& samples, const StraightLines& lines,
-                   const FlatFaces& faces, FaceRims* rims, FaceCells* cells);
+Status merge_cells(Context& context, const Drawing& drawing, const FlatFaces& faces, FaceRims* rims,
+                   FaceCells* cells);
 
 }  /* namespace wireskin::flow */
 /* ======== end src/flow/merge_cells.h ======== */
@@ -6064,6 +6090,8 @@ struct Expectations {
   const int32_t* euler_characteristic = nullptr;  /* null: not known */
   /* No look at folds and inverted triangles: where the curves themselves have a cusp. */
   bool may_fold = false;
+  /* No look at the areas of triangles: where the caller's own have next to none. */
+  bool may_be_flat = false;
 };
 
 Status check(Context& context, const Expectations& mesh);
@@ -6115,7 +6143,8 @@ Status raise_dome(Context& context, const Loops& loops, uint32_t held,
                   Span<const uint32_t> triangle, Span<Vec3> position);
 
 /* Completes a field of shifts that is given at the vertices before `held`: least in the squares of */
-/* its Laplacian, level across the border. A field that the mesh is too thin for stays zero inside. */
+/* its Laplacian, level across the border. A field that the mesh is too thin for stays zero inside; */
+/* so does one that would grow to more than a hundred times what is given. */
 Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
                     Span<const uint32_t> triangle, Span<Vec3> shift);
 
@@ -6427,8 +6456,11 @@ class BoxTree {
 /* A bead is a sample, or a place between samples that became one; beads of samples have the */
 /* sample's index. The beads of a curve are a list, those of a point a ring, and the set of a bead */
 /* names its point. In: wires, and how many joints there will be at most: each has room for two new */
-/* beads. No operation on them allocates; each costs the beads that it passes. Curves are made of */
-/* them again by network/write_beads.h. */
+/* beads. No operation on them allocates; each costs the beads that it passes, and the logarithm of */
+/* those made on its edge, for these are a search tree as well: one line may cross all others. */
+/* Curves are made of them again by network/write_beads.h. */
+/* */
+/* Source of the tree: R. Seidel, C. R. Aragon, "Randomized Search Trees", 1996. */
 
 namespace wireskin::network {
 
@@ -6438,6 +6470,9 @@ struct Bead {
   double part = 0.0;     /* of the edge after sample `edge`; zero for samples */
   uint32_t edge = k_none;
   uint32_t previous = k_none, next = k_none;
+  /* The beads made on an edge are a tree by their parts: those of less part, those of more. It */
+  /* hangs on the edge's sample as what is more. */
+  uint32_t lower = k_none, upper = k_none;
   uint32_t ring = k_none;
   uint32_t given = k_none;  /* the point before any joint */
   bool joined = false;      /* that had more than one sample */
@@ -6491,6 +6526,8 @@ struct Beads {
   uint32_t special_near(const BeadPlace& place, double to_end, double to_node) const;
   /* The place nearest to `target` on the same curve, within `reach` along it. */
   WirePlace nearest_place(const WirePlace& near, const Vec3& target, double reach) const;
+  /* Puts a new bead into the tree of its edge. */
+  void plant(uint32_t b);
   /* The bead at a place; a new one between beads. */
   uint32_t make_bead(const WirePlace& place);
   /* Makes the points of two beads one. */
@@ -6522,7 +6559,7 @@ struct Bend {
   Span<Vec3> displacement;  /* of pins on entry, of all on exit; that of others is zero on entry */
 };
 
-void bend_curve(const Bend& bend);
+Status bend_curve(const Bend& bend, Pace* pace);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/bend.h ======== */
@@ -6853,8 +6890,8 @@ struct PatchMesh {
   uint32_t vertices = 0;
   uint32_t curve_vertices = 0;
   uint32_t coarse_patches = 0, first_coarse_patch = k_none;  /* at more than the spacing */
-  Array<uint32_t> triangle;          /* three vertices each */
-  Array<uint32_t> patch;             /* of each triangle */
+  Array<uint32_t> triangle;                                  /* three vertices each */
+  Array<uint32_t> patch;                                     /* of each triangle */
   Array<mesh::TriangleShape> shape;  /* of each triangle, in its patch's plane or in space */
   Array<PatchWay> way;               /* of each patch */
   Array<Status> status;              /* of each patch: why it has no triangles */
@@ -7172,8 +7209,8 @@ Status join_guests(Grouping* g, Span<const uint8_t> settled);
 /* In: what the plane has joined (network/group_enclosed.h). Every side of a ring is a loop of its */
 /* own; of a ring of boundary curves only one is to have surface. Out: sides joined in pairs so that */
 /* the areas are small in sum (network/ring_pairs.h), and sides left alone that see both loops of a */
-/* pair well joined to it. Both are settled: rule 3 does not join them again. Rings near */
-/* other curves, and rings near such ones, are left to the rules behind. O(n^2) in the distances of */
+/* pair well joined to it. Both are settled: rule 3 does not join them again. Rings near other */
+/* curves, and rings near such ones, are left to the rules that follow. O(n^2) in the distances of */
 /* loops where there are rings at all; so many bands as network/ring_bands.h looks at. */
 
 namespace wireskin::network {
@@ -7474,6 +7511,54 @@ class KeptParts {
 }  /* namespace wireskin::network */
 /* ======== end src/network/kept_parts.h ======== */
 
+/* ======== begin src/network/patch_domain.h ======== */
+/* What the mesh of one patch must have: the vertices of the curves at it and the edges between */
+/* them. */
+/* */
+/* In: the network, the vertices on the curves, a patch. Out: its border; its vertices numbered from */
+/* zero, those of the loops first, then those of curves and points inside; the edges of the curves. */
+/* The memory serves one patch after the other. O(n log n) in the vertices of the patch. */
+
+namespace wireskin::network {
+
+/* Local vertices, a < b. */
+struct DomainEdge {
+  uint32_t a, b;
+};
+
+struct PatchDomain {
+  Border border;
+  Array<uint32_t> local;         /* of each curve vertex, k_none between patches */
+  Array<uint32_t> vertex;        /* of each local one the curve vertex */
+  Array<Vec3> position;          /* of the local vertices */
+  Array<uint32_t> loop;          /* local, in the order of the border */
+  Array<uint32_t> inner_edge;    /* two local ones each */
+  Array<DomainEdge> curve_edge;  /* sorted: loops' and inner edges */
+
+  explicit PatchDomain(Context& context)
+      : border(context),
+        local(context),
+        vertex(context),
+        position(context),
+        loop(context),
+        inner_edge(context),
+        curve_edge(context) {}
+
+  Status start(const CurveVertices& vertices) {
+    return local.assign(vertices.position.size(), k_none);
+  }
+  Status take(const Network& network, const CurveVertices& vertices, uint32_t patch);
+
+  uint32_t size() const { return static_cast<uint32_t>(vertex.size()); }
+  bool is_curve_edge(uint32_t p, uint32_t q) const;
+};
+
+void sort_edges(Span<DomainEdge> edges);
+bool has_edge(Span<const DomainEdge> sorted, const DomainEdge& edge);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_domain.h ======== */
+
 /* ======== begin src/network/patch_in_space.h ======== */
 /* The mesh of a patch that no plane shows: little area inside its loops (mesh/loop_mesh.h), and */
 /* where its normals agree too little with the axis of the border for a flat start, raised from it */
@@ -7499,12 +7584,10 @@ struct SpaceMesh {
 /* Failures are those of mesh/loop_mesh.h. */
 Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh);
 
-/* Raises a dome again and refines it where that stretched it, with more held than the border. */
-Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
-                   SpaceMesh* mesh);
-
-/* Whether some triangle is so thin that the systems to come would be singular. */
-bool has_needles(const SpaceMesh& mesh);
+/* With the curves and points inside the patch as well (mesh/inlay.h), the domain's vertices first. */
+/* Fails with patch_folded, naming a curve, where these cross or the border passes a point twice. */
+Status mesh_in_space(const PatchDomain& domain, const CurveVertices& vertices, double spacing,
+                     SpaceMesh* mesh);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/patch_in_space.h ======== */
@@ -7606,36 +7689,6 @@ Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* netw
 }  /* namespace wireskin::network */
 /* ======== end src/network/partial.h ======== */
 
-/* ======== begin src/network/size_limit.h ======== */
-/* Whether the surface of a network would have more vertices than the library makes, told before any */
-/* of them is made. */
-/* */
-/* In: fitted curves, the cycles before they are grouped, the spacing. No surface over a cycle has */
-/* less area than its vector area, and triangles of a size have 1.15 vertices a square: that, a */
-/* fifth off for curves that bulge less than their knots, is what each cycle needs at the least. */
-/* Where there are several components, what others enclose is taken off, since it may be a hole. */
-/* Out: too_large with the patch that needs most and a curve of it, or else the curve that needs */
-/* most. O(samples). */
-
-namespace wireskin::network {
-
-/* About a hundred GiB, and more than matrix factors with 32-bit indices can be made for. */
-inline constexpr uint32_t k_most_vertices = 1u << 26;
-/* What is done to a patch that no plane shows takes time in the square of this. */
-inline constexpr uint32_t k_longest_border_in_space = 1u << 16;
-/* With so many edges between two nodes a patch has room for few rows of triangles. */
-inline constexpr uint32_t k_most_edges_of_segment = 1u << 20;
-
-Status check_vertex_count(const curves::Curves& curves, const Network& network, double spacing);
-
-/* The same of one patch that no plane shows, with its loops together; no place. What joins loops of */
-/* vector areas V that are d apart has an area of V / 2 or d sqrt(2 pi V) at least: sections between */
-/* them are as long as what they enclose demands, or enclose less than half of it. */
-Status check_border_size(const Border& border, double spacing);
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/size_limit.h ======== */
-
 /* ======== begin src/planar/polygon_mesh.h ======== */
 /* A triangle mesh of a region of the plane whose border and inner curves are kept bit for bit: */
 /* constrained Delaunay, with interior points at the wished spacing, graded to that of the curves. */
@@ -7668,6 +7721,99 @@ Status mesh_polygon(Context& context, Span<const Vec2> border, double spacing, P
 
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/polygon_mesh.h ======== */
+
+/* ======== begin src/network/patch_in_plane.h ======== */
+/* The mesh of a patch that its plane shows without folds. */
+/* */
+/* In: the patch's domain, its plane, the wished spacing. Out: points of the plane, those of the */
+/* domain first, and triangles, none inverted, with the loops' left inside. Cost: that of */
+/* planar/polygon_mesh.h. Source: T. Stanko et al., "Surfacing Curve Networks with Normal Control", */
+/* 2016, section 3.3. */
+
+namespace wireskin::network {
+
+/* `least_facing` as in mesh_patches. Fails with patch_without_plane or patch_folded (no place) */
+/* where the plane does not serve. */
+Status mesh_in_plane(const PatchDomain& domain, const Plane& plane, double spacing,
+                     double least_facing, planar::PolygonMesh* mesh);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_in_plane.h ======== */
+
+/* ======== begin src/network/shared_chords.h ======== */
+/* Chords between curve vertices that stand in two patches, or beside an edge of a curve: the */
+/* patches would share an edge that is none of the curves'. Each is split by a free vertex in the */
+/* middle. */
+/* */
+/* In: the triangles of each patch as they come. Out: the mesh of all, with the triangles at such */
+/* chords split. O(n log n); a split costs the triangles of its patch. */
+
+namespace wireskin::network {
+
+/* An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a */
+/* curve. */
+struct Chord {
+  uint32_t a, b;
+  uint32_t patch;
+};
+
+/* The corners of a triangle, in space or in its patch's plane (z = 0; the same vertex then has */
+/* another place in each patch). */
+struct TriangleCorners {
+  uint32_t triangle;
+  Vec3 at[3];
+};
+
+struct SharedChords {
+  PatchMesh* mesh;
+  Array<Chord> chord;
+  Array<TriangleCorners> cornered;  /* the triangles that have chords, ascending */
+  Array<uint32_t> patch_start;      /* first triangle of each patch, and the end, before any split */
+  Array<uint8_t> raised;            /* of each patch */
+
+  SharedChords(Context& context, PatchMesh* result)
+      : mesh(result), chord(context), cornered(context), patch_start(context), raised(context) {}
+
+  /* Notes the chords of triangle `t`, whose vertices in the patch's domain are `corner`; where it */
+  /* has any, also the places of these. */
+  Status note(const PatchDomain& domain, const uint32_t* corner, const Vec3* at, uint32_t patch,
+              uint32_t t);
+  /* When all patches are there. */
+  Status split(const Network& network, const CurveVertices& vertices);
+};
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/shared_chords.h ======== */
+
+/* ======== begin src/network/size_limit.h ======== */
+/* Whether the surface of a network would have more vertices than the library makes, told before any */
+/* of them is made. */
+/* */
+/* In: fitted curves, the cycles before they are grouped, the spacing. No surface over a cycle has */
+/* less area than its vector area, and triangles of a size have 1.15 vertices a square: that, a */
+/* fifth off for curves that bulge less than their knots, is what each cycle needs at the least. */
+/* Where there are several components, what others enclose is taken off, since it may be a hole. */
+/* Out: too_large with the patch that needs most and a curve of it, or else the curve that needs */
+/* most. O(samples). */
+
+namespace wireskin::network {
+
+/* About a hundred GiB, and more than matrix factors with 32-bit indices can be made for. */
+inline constexpr uint32_t k_most_vertices = 1u << 26;
+/* What is done to a patch that no plane shows takes time in the square of this. */
+inline constexpr uint32_t k_longest_border_in_space = 1u << 16;
+/* With so many edges between two nodes a patch has room for few rows of triangles. */
+inline constexpr uint32_t k_most_edges_of_segment = 1u << 20;
+
+Status check_vertex_count(const curves::Curves& curves, const Network& network, double spacing);
+
+/* The same of one patch that no plane shows, with its loops together; no place. What joins loops of */
+/* vector areas V that are d apart has an area of V / 2 or d sqrt(2 pi V) at least: sections between */
+/* them are as long as what they enclose demands, or enclose less than half of it. */
+Status check_border_size(const Border& border, double spacing);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/size_limit.h ======== */
 
 /* ======== begin src/network/snap_order.h ======== */
 /* In which order approaches of curves are to be joined. */
@@ -8194,14 +8340,13 @@ struct Start {
   Span<const mesh::TriangleShape> shape;
   smooth::Metric metric;
   Span<const uint8_t> on_border;
-  /* Of each vertex: roughly where it will stand (for the order of elimination), and exactly where */
-  /* it starts if it is placed. */
+  /* Of each vertex where it starts: placed ones do; for the others it is roughly where they will */
+  /* stand (for the order of elimination), and where their patch goes back to if need be. */
   Span<const Vec3> position = {};
   Span<const uint8_t> placed = {};       /* free vertices; empty: none */
   Span<const uint32_t> inner_edge = {};  /* of curves inside patches, two vertices each */
-  /* What `shape` and `position` view, if it may be given back. */
+  /* What `shape` views, if it may be given back. */
   Array<mesh::TriangleShape>* spent = nullptr;
-  Array<Vec3>* spent_places = nullptr;
 };
 
 /* Neighbours, the check of the mesh, and the counts that follow from them. */
@@ -8258,11 +8403,51 @@ namespace wireskin {
 Status verify_surface(Context& context, const network::Network& network, Span<const Vec3> position,
                       const Surface& surface);
 
-/* The same without a network, for a mesh of the caller's. */
-Status verify_triangles(Context& context, const Surface& surface);
+/* The same without a network, for a mesh of the caller's: a triangle may be as good as flat in the */
+/* result if one was as it was given. */
+Status verify_triangles(Context& context, const TriangleSet& given, const Surface& surface);
 
 }  /* namespace wireskin */
 /* ======== end src/surface/verify.h ======== */
+
+/* ======== begin src/surface/spoilt.h ======== */
+/* Patches that smoothing spoilt, of meshes that were sound before: they go back to what they were. */
+/* */
+/* What spreads linearly from the ends of a long tube falls off exponentially. The first four */
+/* methods draw such a tube to a line, on which triangles end as needles that only rounding keeps */
+/* apart; and the curvature that the paper's method takes from what is left of its radius blows it */
+/* up to a million times its size. So a patch is spoilt where a triangle's height over its longest */
+/* edge is less than k_least_height of that edge, and less than any was in the patch before, or */
+/* where a vertex has gone farther than the diagonal of the whole. In and out: the mesh as smoothed; */
+/* patches that are not spoilt keep it, bit for bit, but for soft curves that they share with one */
+/* that went back. One pass where nothing is spoilt; else O(triangles) a round, mostly two. */
+
+namespace wireskin {
+
+struct SmoothedMesh {
+  Span<Vec3> position;
+  Span<uint32_t> triangle;
+  Span<const uint32_t> patch;        /* of each triangle */
+  Span<const Vec3> start;            /* of each vertex, before the smoothing */
+  Span<const uint32_t> unturned;     /* the triangles before; edges were flipped inside patches only */
+  Span<const uint32_t> origin = {};  /* of each vertex, the same on all sides of a crease; or empty */
+};
+
+struct Spoilt {
+  Array<uint8_t> patch;     /* of each patch; empty where none is spoilt */
+  uint32_t first = k_none;  /* triangle that spoils one */
+
+  explicit Spoilt(Context& context) : patch(context) {}
+};
+
+Status find_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches, Spoilt* spoilt);
+
+/* Of each of so many patches, whether it went back; empty where none had to. */
+Status put_back_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches,
+                       Array<uint8_t>* back);
+
+}  /* namespace wireskin */
+/* ======== end src/surface/spoilt.h ======== */
 
 /* ======== begin src/surface/flow_measure.h ======== */
 /* How far the samples that the caller gave lie from the curves of a surface made of a flow. */
@@ -12865,7 +13050,6 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
                   guided.area.span(), guided.weight.span()));
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
   TRY(guided.system.prepare(laplacian, domain.held, order, domain.places));
-  if (domain.spent_places != nullptr) domain.spent_places->free();
   if (!uses_normals) {
     Array<double> penalty(context);
     TRY(penalties(domain, static_cast<int>(order), false, &penalty));
@@ -12888,6 +13072,96 @@ namespace wireskin {
 /* A plane that sees a patch more steeply than this on the whole distorts the mesh; the methods that */
 /* leave the planes behind then start better from a triangulation in space. */
 static constexpr double k_least_facing = 0.25;
+
+namespace {
+
+/* What becomes of the curves on the way to the surface. */
+struct Draft {
+  Array<Vec3> given;  /* the caller's samples, from which noise may be taken out */
+  curves::Curves fitted;
+  Array<network::Node> nodes;
+  network::Network network;
+  Array<Status> faults;  /* with `partial`, of each segment: why no patch is to be made at it */
+  network::CurveVertices vertices;
+  network::PatchMesh patches;
+  Array<uint32_t> original;  /* the number of each patch that is left; empty where all are */
+
+  explicit Draft(Context& context)
+      : given(context),
+        fitted(context),
+        nodes(context),
+        network(context),
+        faults(context),
+        vertices(context),
+        patches(context),
+        original(context) {}
+  Context& context() const { return given.context(); }
+};
+
+}  /* namespace */
+
+static Status fit(const CurveSet& set, const Settings& settings, Draft* draft, Counts* counts) {
+  Context& context = draft->context();
+  TRY(context.enter(Stage::curves));
+  const double size = diagonal(set.position);
+  counts->spacing = settings.spacing > 0.0 ? settings.spacing : size / 100.0;
+  for (uint32_t c = 0; c < set.soft.size(); ++c) TRY(check_cutoff(set.soft[c], size, c));
+  TRY(draft->given.copy(set.position));
+  return fit_curves(context, set, size, settings.smoothing, &draft->nodes, &draft->fitted, counts);
+}
+
+/* The curves' vertices for the network as it is now. */
+static Status resample_again(const Counts& counts, Draft* draft) {
+  network::CurveVertices fresh(draft->context());
+  TRY(network::resample(draft->fitted, draft->nodes.span(), draft->network, counts.spacing,
+                        &fresh));
+  draft->vertices = static_cast<network::CurveVertices&&>(fresh);
+  return {};
+}
+
+/* An outside that might have been joined otherwise is no patch any more, so no question either. */
+static void renumber_ambiguous(Span<const uint32_t> original, Counts* counts) {
+  const uint32_t before = counts->first_ambiguous_patch;
+  if (before == k_none) return;
+  counts->first_ambiguous_patch = k_none;
+  for (uint32_t p = 0; p < original.size(); ++p) {
+    if (original[p] == before) counts->first_ambiguous_patch = p;
+  }
+  if (counts->first_ambiguous_patch == k_none) --counts->ambiguous_patches;
+}
+
+/* Leaves the outside of an open surface open, whose curves no one tagged. */
+static Status find_borders(Draft* draft, Counts* counts) {
+  network::Network& network = draft->network;
+  Array<uint32_t> original(draft->context());
+  TRY(network::drop_outsides(draft->fitted, draft->vertices, &draft->nodes, &network,
+                             &draft->faults, &original));
+  if (original.empty()) return {};
+  counts->found_borders = counts->patches - network.patches();
+  counts->patches = network.patches();
+  counts->segments = static_cast<uint32_t>(network.segment.size());
+  renumber_ambiguous(original.span(), counts);
+  return resample_again(*counts, draft);
+}
+
+static Status find_network(const CurveSet& set, const Settings& settings, Draft* draft,
+                           Counts* counts) {
+  network::Network& network = draft->network;
+  TRY(draft->context().enter(Stage::network));
+  TRY(network::find_patches(draft->fitted, set.boundary, draft->nodes.span(), &network,
+                            settings.partial ? &draft->faults : nullptr));
+  counts->segments = static_cast<uint32_t>(network.segment.size());
+  counts->patches = network.patches();
+  TRY(network::check_vertex_count(draft->fitted, network, counts->spacing));
+  TRY(network::resample(draft->fitted, draft->nodes.span(), network, counts->spacing,
+                        &draft->vertices));
+  network::Ambiguity ambiguity;
+  TRY(network::group_patches(draft->vertices, &network, &ambiguity));
+  counts->ambiguous_patches = ambiguity.patches;
+  counts->first_ambiguous_patch = ambiguity.first;
+  counts->patches = network.patches();
+  return settings.find_borders ? find_borders(draft, counts) : Status{};
+}
 
 /* The curves as resampled, edge by edge. */
 static Status list_curve_edges(const network::Network& network,
@@ -12932,38 +13206,38 @@ static Status list_patch_curves(const network::Network& network, PatchList* patc
   return {};
 }
 
+static void count_ways(const network::PatchMesh& patches, Surface* surface) {
+  Counts* counts = &surface->counts;
+  for (size_t p = 0; p < patches.way.size(); ++p) {
+    surface->patches.way[p] = static_cast<uint8_t>(patches.way[p]);
+    const bool made = patches.status[p].ok();
+    counts->failed_patches += !made;
+    counts->minimal_area_patches += made && patches.way[p] == network::PatchWay::minimal_area;
+  }
+  counts->coarse_patches = patches.coarse_patches;
+  counts->first_coarse_patch = patches.first_coarse_patch;
+}
+
 /* Meshes all patches; with `partial` those that can be, the network being cut down to them. */
-/* `original`: the number of each patch that is left; empty where all are. */
-static Status make_patches(const curves::Curves& fitted, const Settings& settings,
-                           Span<const Status> faults, Array<network::Node>* nodes,
-                           network::Network* network, network::CurveVertices* vertices,
-                           network::PatchMesh* patches, Array<uint32_t>* original,
-                           Surface* surface) {
+static Status make_patches(const Settings& settings, Draft* draft, Surface* surface) {
   const bool in_space =
       settings.method == smooth::Method::iterated || settings.method == smooth::Method::fair;
   const double least_facing = in_space ? k_least_facing : -1.0;
-  Counts* counts = &surface->counts;
-  Context& context = nodes->context();
-  TRY(list_patch_curves(*network, &surface->patches));
-  TRY(network::mesh_patches(*network, *vertices, least_facing, settings.partial, patches, faults));
-  TRY(surface->patches.way.resize(patches->way.size()));
-  for (size_t p = 0; p < patches->way.size(); ++p) {
-    surface->patches.way[p] = static_cast<uint8_t>(patches->way[p]);
-    const bool made = patches->status[p].ok();
-    counts->failed_patches += !made;
-    counts->minimal_area_patches += made && patches->way[p] == network::PatchWay::minimal_area;
-  }
-  TRY(surface->patches.status.copy(patches->status.span()));
-  counts->coarse_patches = patches->coarse_patches;
-  counts->first_coarse_patch = patches->first_coarse_patch;
-  if (counts->failed_patches == 0) return {};
-  TRY(network::drop_patches(surface->patches.status.span(), nodes, network, original));
-  network::CurveVertices fresh_vertices(context);
-  network::PatchMesh fresh_patches(context);
-  TRY(network::resample(fitted, nodes->span(), *network, counts->spacing, &fresh_vertices));
-  TRY(network::mesh_patches(*network, fresh_vertices, least_facing, false, &fresh_patches));
-  *vertices = static_cast<network::CurveVertices&&>(fresh_vertices);
-  *patches = static_cast<network::PatchMesh&&>(fresh_patches);
+  network::PatchMesh& patches = draft->patches;
+  TRY(draft->context().enter(Stage::patches));
+  TRY(list_patch_curves(draft->network, &surface->patches));
+  TRY(network::mesh_patches(draft->network, draft->vertices, least_facing, settings.partial,
+                            &patches, draft->faults.span()));
+  TRY(surface->patches.way.resize(patches.way.size()));
+  TRY(surface->patches.status.copy(patches.status.span()));
+  count_ways(patches, surface);
+  if (surface->counts.failed_patches == 0) return {};
+  TRY(network::drop_patches(surface->patches.status.span(), &draft->nodes, &draft->network,
+                            &draft->original));
+  TRY(resample_again(surface->counts, draft));
+  network::PatchMesh fresh(draft->context());
+  TRY(network::mesh_patches(draft->network, draft->vertices, least_facing, false, &fresh));
+  patches = static_cast<network::PatchMesh&&>(fresh);
   return {};
 }
 
@@ -12977,21 +13251,53 @@ static Status in_terms_of_nodes(Status status, Span<const network::Node> nodes) 
   return status;
 }
 
-/* Makes room for the free vertices behind those of the curves. */
-static Status take_vertices(const network::CurveVertices& vertices,
-                            const network::PatchMesh& patches, Surface* surface) {
-  const size_t given = vertices.position.size();
-  Context& context = surface->position.context();
+/* The mesh as it is before any smoothing, with room for the free vertices behind those of the */
+/* curves. */
+static Status take_mesh(const Draft& draft, Surface* surface) {
+  const network::CurveVertices& vertices = draft.vertices;
+  const network::PatchMesh& patches = draft.patches;
+  TRY(list_curve_edges(draft.network, vertices, surface));
+  surface->counts.patches = draft.network.patches();
+  surface->counts.free_vertices = patches.vertices - patches.curve_vertices;
   TRY(assign_in_parts(patches.vertices, Vec3{}, &surface->position));
   TRY(assign_in_parts(patches.vertices, Vec3{}, &surface->constraint_normal));
   TRY(assign_in_parts(patches.vertices, k_none, &surface->vertex_curve));
-  TRY(in_parts(context, given, [&](size_t v) {
+  TRY(in_parts(draft.context(), vertices.position.size(), [&](size_t v) {
     surface->position[v] = vertices.position[v];
     surface->constraint_normal[v] = vertices.normal[v];
     surface->vertex_curve[v] = vertices.curve[v];
   }));
   TRY(copy_in_parts(patches.triangle, &surface->triangle));
   return copy_in_parts(patches.patch, &surface->patch);
+}
+
+static Status smooth_draft(const CurveSet& set, smooth::Method method, Draft* draft,
+                           Surface* surface) {
+  Context& context = draft->context();
+  network::PatchMesh& patches = draft->patches;
+  mesh::Topology topology(context);
+  Constraints constraints(context);
+  Array<uint32_t> inner_edge(context);
+  TRY(in_terms_of_nodes(
+      count_topology(patches.vertices, surface->triangle.span(), &topology, &surface->counts),
+      draft->nodes.span()));
+  TRY(verify_surface(context, draft->network, patches.start.span(), *surface));
+  TRY(list_inner_edges(draft->network, draft->vertices, &inner_edge));
+  TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
+  const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
+                       patches.start.span(), patches.placed.span(),  inner_edge.span(),
+                       &patches.shape};
+  if (network::has_creases(draft->vertices)) {
+    network::CreasedMesh creased(context);
+    TRY(network::cut_along_creases(draft->network, draft->vertices, set.sharp, draft->nodes.span(),
+                                   patches, surface->position.span(), &creased));
+    TRY(smooth_creased(context, start, constraints, method, &creased, surface));
+  } else {
+    patches.triangle.free();  /* the surface has its own */
+    patches.patch.free();
+    TRY(smooth_surface(context, start, constraints, method, surface));
+  }
+  return verify_surface(context, draft->network, surface->position.span(), *surface);
 }
 
 /* The patches that were left out were not held back. */
@@ -13004,185 +13310,28 @@ static Status renumber_guarded(Span<const uint32_t> original, uint32_t patches,
   return guarded->copy(all.span());
 }
 
-/* An outside that might have been joined otherwise is no patch any more, so no question either. */
-static void renumber_ambiguous(Span<const uint32_t> original, Counts* counts) {
-  const uint32_t before = counts->first_ambiguous_patch;
-  if (before == k_none) return;
-  counts->first_ambiguous_patch = k_none;
-  for (uint32_t p = 0; p < original.size(); ++p) {
-    if (original[p] == before) counts->first_ambiguous_patch = p;
-  }
-  if (counts->first_ambiguous_patch == k_none) --counts->ambiguous_patches;
-}
-
-/* Leaves the outside of an open surface open, whose curves no one tagged. */
-static Status find_borders(const curves::Curves& fitted, Array<network::Node>* nodes,
-                           network::Network* network, network::CurveVertices* vertices,
-                           Array<Status>* faults, Counts* counts) {
-  Context& context = nodes->context();
-  Array<uint32_t> original(context);
-  TRY(network::drop_outsides(fitted, *vertices, nodes, network, faults, &original));
+/* Gives patches the numbers that they had before some were left out. */
+static Status number_as_found(Span<const uint32_t> original, Surface* surface) {
+  Counts* counts = &surface->counts;
   if (original.empty()) return {};
-  counts->found_borders = counts->patches - network->patches();
-  counts->patches = network->patches();
-  counts->segments = static_cast<uint32_t>(network->segment.size());
-  renumber_ambiguous(original.span(), counts);
-  network::CurveVertices fresh(context);
-  TRY(network::resample(fitted, nodes->span(), *network, counts->spacing, &fresh));
-  *vertices = static_cast<network::CurveVertices&&>(fresh);
-  return {};
+  TRY(in_parts(surface->patch.context(), surface->patch.size(),
+               [&](size_t t) { surface->patch[t] = original[surface->patch[t]]; }));
+  counts->patches += counts->failed_patches;
+  uint32_t& inverted = counts->first_inverted_patch;
+  if (inverted != k_none) inverted = original[inverted];
+  return renumber_guarded(original, counts->patches, &surface->patch_guarded);
 }
 
 Status surface_curves(Context& context, const CurveSet& set, const Settings& settings,
                       Surface* surface) {
-  Counts* counts = &surface->counts;
-  curves::Curves fitted(context);
-  Array<network::Node> nodes(context);
-  network::Network network(context);
-  network::CurveVertices vertices(context);
-  network::PatchMesh patches(context);
-  mesh::Topology topology(context);
-  Constraints constraints(context);
-  Array<Vec3> given(context);
-  Array<uint32_t> original(context), inner_edge(context);
-  Array<Status> faults(context);
-
-  TRY(context.enter(Stage::curves));
-  const double size = diagonal(set.position);
-  counts->spacing = settings.spacing > 0.0 ? settings.spacing : size / 100.0;
-  for (uint32_t c = 0; c < set.soft.size(); ++c) TRY(check_cutoff(set.soft[c], size, c));
-  TRY(given.copy(set.position));
-  TRY(fit_curves(context, set, size, settings.smoothing, &nodes, &fitted, counts));
-
-  TRY(context.enter(Stage::network));
-  TRY(network::find_patches(fitted, set.boundary, nodes.span(), &network,
-                            settings.partial ? &faults : nullptr));
-  counts->segments = static_cast<uint32_t>(network.segment.size());
-  counts->patches = network.patches();
-  TRY(network::check_vertex_count(fitted, network, counts->spacing));
-  TRY(network::resample(fitted, nodes.span(), network, counts->spacing, &vertices));
-  network::Ambiguity ambiguity;
-  TRY(network::group_patches(vertices, &network, &ambiguity));
-  counts->ambiguous_patches = ambiguity.patches;
-  counts->first_ambiguous_patch = ambiguity.first;
-  counts->patches = network.patches();
-  if (settings.find_borders) {
-    TRY(find_borders(fitted, &nodes, &network, &vertices, &faults, counts));
-  }
-
-  TRY(context.enter(Stage::patches));
-  TRY(make_patches(fitted, settings, faults.span(), &nodes, &network, &vertices, &patches,
-                   &original, surface));
-  TRY(list_curve_edges(network, vertices, surface));
-  TRY(list_inner_edges(network, vertices, &inner_edge));
-  counts->patches = network.patches();
-  counts->free_vertices = patches.vertices - patches.curve_vertices;
-  TRY(take_vertices(vertices, patches, surface));
-  TRY(in_terms_of_nodes(
-      count_topology(patches.vertices, surface->triangle.span(), &topology, counts), nodes.span()));
-
-  TRY(verify_surface(context, network, patches.start.span(), *surface));
-
-  TRY(constrain_curves(set, patches.curve_vertices, *surface, &constraints));
-  const Start start = {patches.shape.span(), smooth::Metric::planes, topology.on_border.span(),
-                       patches.start.span(), patches.placed.span(),  inner_edge.span(),
-                       &patches.shape,       &patches.start};
-  if (network::has_creases(vertices)) {
-    network::CreasedMesh creased(context);
-    TRY(network::cut_along_creases(network, vertices, set.sharp, nodes.span(), patches,
-                                   surface->position.span(), &creased));
-    TRY(smooth_creased(context, start, constraints, settings.method, &creased, surface));
-  } else {
-    patches.triangle.free();  /* the surface has its own */
-    patches.patch.free();
-    TRY(smooth_surface(context, start, constraints, settings.method, surface));
-  }
-  TRY(verify_surface(context, network, surface->position.span(), *surface));
-  if (!original.empty()) {  /* the smoothing counted those that are left */
-    TRY(in_parts(context, surface->patch.size(),
-                 [&](size_t t) { surface->patch[t] = original[surface->patch[t]]; }));
-    counts->patches += counts->failed_patches;
-    uint32_t& inverted = counts->first_inverted_patch;
-    if (inverted != k_none) inverted = original[inverted];
-    TRY(renumber_guarded(original.span(), counts->patches, &surface->patch_guarded));
-  }
-  return measure_constraints(set, given.span(), surface);
-}
-
-/* Every component and every border must be held, or the surface would be free to float away. */
-static Status check_held(const TriangleSet& set, const mesh::Topology& topology) {
-  Context& context = topology.component.context();
-  Array<uint8_t> anchored(context);
-  TRY(anchored.assign(topology.components, 0));
-  TRY(in_parts(context, set.constrained.size(), [&](size_t v) {
-    if (set.constrained[v]) anchored[topology.component[v]] = 1;
-  }));
-  Pace pace(context);
-  for (uint32_t v = 0; v < set.constrained.size(); ++v) {
-    TRY(pace.after());
-    Place place;
-    place.vertex = v;
-    if (topology.on_border[v] && !set.constrained[v]) {
-      return fail(Code::unconstrained, "a vertex of an open border is not constrained", place);
-    }
-    if (!anchored[topology.component[v]]) {
-      return fail(Code::unconstrained, "no vertex of this component is constrained", place);
-    }
-  }
-  return {};
-}
-
-static Status mean_edge_length(Context& context, Span<const Vec3> positions,
-                               Span<const uint32_t> triangles, double* mean) {
-  double sum = 0.0;
-  TRY(in_parts(context, triangles.size(), [&](size_t h) {
-    const uint32_t next = triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
-    sum += length(positions[next] - positions[triangles[h]]);
-  }));
-  *mean = sum / static_cast<double>(triangles.size());
-  return {};
-}
-
-static Status take_triangles(const TriangleSet& set, Surface* surface) {
-  const size_t n = set.position.size();
-  TRY(copy_in_parts(set.position, &surface->position));
-  TRY(copy_in_parts(set.triangle, &surface->triangle));
-  TRY(assign_in_parts(set.triangle.size() / 3, 0, &surface->patch));
-  TRY(surface->patches.way.push(0));
-  TRY(surface->patches.status.push(Status{}));
-  TRY(surface->patches.curve_start.assign(2, 0));
-  TRY(assign_in_parts(n, Vec3{}, &surface->constraint_normal));
-  TRY(assign_in_parts(n, k_none, &surface->vertex_curve));
-  return in_parts(surface->position.context(), n, [&](size_t v) {
-    if (!set.constrained[v]) return;
-    surface->vertex_curve[v] = 0;
-    if (!set.normal.empty()) surface->constraint_normal[v] = set.normal[v];
-  });
-}
-
-Status surface_triangles(Context& context, const TriangleSet& set, const Settings& settings,
-                         Surface* surface) {
-  Counts* counts = &surface->counts;
-  mesh::Topology topology(context);
-  Array<mesh::TriangleShape> shapes(context);
-  Constraints constraints(context);
-  const uint32_t n = static_cast<uint32_t>(set.position.size());
-
-  TRY(context.enter(Stage::patches));
-  TRY(count_topology(n, set.triangle, &topology, counts));
-  TRY(mesh::check_areas(context, set.position, set.triangle));
-  TRY(check_held(set, topology));
-  counts->patches = 1;
-  for (uint8_t constrained : set.constrained) counts->free_vertices += constrained == 0;
-  TRY(mean_edge_length(context, set.position, set.triangle, &counts->spacing));
-  TRY(take_triangles(set, surface));
-  TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
-  TRY(check_cutoff(set.soft, diagonal(set.position), k_none));
-  TRY(constrain_vertices(set, counts->spacing, &constraints));
-  const Start start = {shapes.span(), smooth::Metric::space, topology.on_border.span(),
-                       set.position};
-  TRY(smooth_surface(context, start, constraints, settings.method, surface));
-  return verify_triangles(context, *surface);
+  Draft draft(context);
+  TRY(fit(set, settings, &draft, &surface->counts));
+  TRY(find_network(set, settings, &draft, &surface->counts));
+  TRY(make_patches(settings, &draft, surface));
+  TRY(take_mesh(draft, surface));
+  TRY(smooth_draft(set, settings.method, &draft, surface));
+  TRY(number_as_found(draft.original.span(), surface));
+  return measure_constraints(set, draft.given.span(), surface);
 }
 
 }  /* namespace wireskin */
@@ -13481,6 +13630,107 @@ Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage)
 
 }  /* namespace wireskin::api */
 /* ======== end src/api/curves.cpp ======== */
+
+/* ======== begin src/surface/from_triangles.cpp ======== */
+namespace wireskin {
+
+/* Every component and every border must be held, or the surface would be free to float away. */
+static Status check_held(const TriangleSet& set, const mesh::Topology& topology) {
+  Context& context = topology.component.context();
+  Array<uint8_t> anchored(context);
+  TRY(anchored.assign(topology.components, 0));
+  TRY(in_parts(context, set.constrained.size(), [&](size_t v) {
+    if (set.constrained[v]) anchored[topology.component[v]] = 1;
+  }));
+  Pace pace(context);
+  for (uint32_t v = 0; v < set.constrained.size(); ++v) {
+    TRY(pace.after());
+    Place place;
+    place.vertex = v;
+    if (topology.on_border[v] && !set.constrained[v]) {
+      return fail(Code::unconstrained, "a vertex of an open border is not constrained", place);
+    }
+    if (!anchored[topology.component[v]]) {
+      return fail(Code::unconstrained, "no vertex of this component is constrained", place);
+    }
+  }
+  return {};
+}
+
+static Status mean_edge_length(Context& context, Span<const Vec3> positions,
+                               Span<const uint32_t> triangles, double* mean) {
+  double sum = 0.0;
+  TRY(in_parts(context, triangles.size(), [&](size_t h) {
+    const uint32_t next = triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    sum += length(positions[next] - positions[triangles[h]]);
+  }));
+  *mean = sum / static_cast<double>(triangles.size());
+  return {};
+}
+
+static Status take_triangles(const TriangleSet& set, Surface* surface) {
+  const size_t n = set.position.size();
+  TRY(copy_in_parts(set.position, &surface->position));
+  TRY(copy_in_parts(set.triangle, &surface->triangle));
+  TRY(assign_in_parts(set.triangle.size() / 3, 0, &surface->patch));
+  TRY(surface->patches.way.push(0));
+  TRY(surface->patches.status.push(Status{}));
+  TRY(surface->patches.curve_start.assign(2, 0));
+  TRY(assign_in_parts(n, Vec3{}, &surface->constraint_normal));
+  TRY(assign_in_parts(n, k_none, &surface->vertex_curve));
+  return in_parts(surface->position.context(), n, [&](size_t v) {
+    if (!set.constrained[v]) return;
+    surface->vertex_curve[v] = 0;
+    if (!set.normal.empty()) surface->constraint_normal[v] = set.normal[v];
+  });
+}
+
+/* A caller's mesh has no parts that could go back, so if a component is spoilt, that is a failure. */
+static Status check_not_spoilt(Context& context, const TriangleSet& set,
+                               const mesh::Topology& topology, Surface* surface) {
+  Spoilt spoilt(context);
+  Array<uint32_t> component(context);
+  TRY(component.resize(set.triangle.size() / 3));
+  TRY(in_parts(context, component.size(),
+               [&](size_t t) { component[t] = topology.component[set.triangle[3 * t]]; }));
+  const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(), component.span(),
+                             set.position, set.triangle};
+  TRY(find_spoilt(context, mesh, topology.components, &spoilt));
+  if (spoilt.first == k_none) return {};
+  Place place;
+  place.triangle = spoilt.first;
+  return fail(Code::not_positive_definite,
+              "smoothing leaves the triangle without area, or takes it far away", place);
+}
+
+Status surface_triangles(Context& context, const TriangleSet& set, const Settings& settings,
+                         Surface* surface) {
+  Counts* counts = &surface->counts;
+  mesh::Topology topology(context);
+  Array<mesh::TriangleShape> shapes(context);
+  Constraints constraints(context);
+  const uint32_t n = static_cast<uint32_t>(set.position.size());
+
+  TRY(context.enter(Stage::patches));
+  TRY(count_topology(n, set.triangle, &topology, counts));
+  TRY(mesh::check_areas(context, set.position, set.triangle));
+  TRY(check_held(set, topology));
+  counts->patches = 1;
+  for (uint8_t constrained : set.constrained) counts->free_vertices += constrained == 0;
+  TRY(mean_edge_length(context, set.position, set.triangle, &counts->spacing));
+  TRY(take_triangles(set, surface));
+  TRY(mesh::triangle_shapes(set.position, set.triangle, &shapes));
+  TRY(check_cutoff(set.soft, diagonal(set.position), k_none));
+  TRY(constrain_vertices(set, counts->spacing, &constraints));
+  const Start start = {shapes.span(), smooth::Metric::space, topology.on_border.span(),
+                       set.position};
+  TRY(smooth_surface(context, start, constraints, settings.method, surface));
+  TRY(check_not_spoilt(context, set, topology, surface));
+  return verify_triangles(context, set, *surface);
+}
+
+}  /* namespace wireskin */
+/* ======== end src/surface/from_triangles.cpp ======== */
 
 /* ======== begin src/flow/complex.cpp ======== */
 namespace wireskin::flow {
@@ -14849,16 +15099,17 @@ static bool in_plane(const Complex& complex, const FacePlane& plane, uint32_t t)
 }
 
 /* Marks the edges of arcs. */
-static Status mark_arcs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                        const StraightLines& lines, FaceFlood* flood) {
+static Status mark_arcs(const Drawing& drawing, FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
+  const Samples& samples = drawing.samples;
   TRY(flood->straight.assign(complex.edge_count(), 0));
   TRY(flood->arc_of.assign(complex.edge_count(), k_none));
   TRY(flood->rim_of.assign(samples.start.size(), k_none));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
-      if (curves.edge_of[i] == k_none) continue;
-      flood->arc_of[curves.edge_of[i]] = a;
-      if (lines.is_straight(a)) flood->straight[curves.edge_of[i]] = 1;
+      if (drawing.curves.edge_of[i] == k_none) continue;
+      flood->arc_of[drawing.curves.edge_of[i]] = a;
+      if (drawing.lines.is_straight(a)) flood->straight[drawing.curves.edge_of[i]] = 1;
     }
   }
   return {};
@@ -14871,25 +15122,26 @@ static Vec3 edge_vector(const Complex& complex, uint32_t e, uint32_t from) {
 }
 
 /* Edges of the complex that belong to the curves, or run along a straight line of them. */
-static bool on_rim(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                   uint32_t e) {
-  if (curves.on_curve(e)) return true;
-  return lines.common(complex.edge[2 * size_t{e}], complex.edge[2 * size_t{e} + 1]) != k_none;
+static bool on_rim(const Drawing& drawing, uint32_t e) {
+  const Complex& complex = drawing.complex;
+  if (drawing.curves.on_curve(e)) return true;
+  return drawing.lines.common(complex.edge[2 * size_t{e}], complex.edge[2 * size_t{e} + 1]) !=
+         k_none;
 }
 
 /* All corners on one straight line: such a triangle lies in every plane through it. */
-static bool is_line(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                    uint32_t t) {
+static bool is_line(const Drawing& drawing, uint32_t t) {
+  const Complex& complex = drawing.complex;
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const uint32_t* const edge = &complex.triangle_edge[3 * size_t{t}];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t e = edge[(k + 1) % 3], f = edge[(k + 2) % 3];
-    if (!curves.on_curve(e) || !curves.on_curve(f)) continue;
+    if (!drawing.curves.on_curve(e) || !drawing.curves.on_curve(f)) continue;
     if (dot(edge_vector(complex, e, v[k]), edge_vector(complex, f, v[k])) < -k_same_line) {
       return true;
     }
   }
-  return lines.common(v[0], v[1], v[2]) != k_none;
+  return drawing.lines.common(v[0], v[1], v[2]) != k_none;
 }
 
 /* Which side of an edge, within the plane, a triangle lies on. */
@@ -14912,9 +15164,9 @@ static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const F
   return sides;
 }
 
-static Status flood_face(const Complex& complex, const CurveEdges& curves,
-                         const StraightLines& lines, const FlatFaces& faces, const FacePlane& plane,
+static Status flood_face(const Drawing& drawing, const FlatFaces& faces, const FacePlane& plane,
                          uint32_t seed, FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
   flood->member.clear();
   const auto add = [&](uint32_t t) {
     flood->mark[t] = seed;
@@ -14926,12 +15178,12 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
       ++flood->work;
-      if (on_rim(complex, curves, lines, e)) continue;
+      if (on_rim(drawing, e)) continue;
       for (const uint32_t t : complex.triangles_of(e)) {
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
         if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
-        if (is_line(complex, curves, lines, t)) continue;
-        if (!is_crossed(complex, lines, plane, seed, t, &flood->across)) TRY(add(t));
+        if (is_line(drawing, t)) continue;
+        if (!is_crossed(drawing, plane, seed, t, &flood->across)) TRY(add(t));
         TRY(flood->pause());
       }
     }
@@ -14960,12 +15212,12 @@ static FacePlane plane_of_members(const Complex& complex, const FaceFlood& flood
 }
 
 /* With noise the plane of one triangle is askew: the planes of all that it has in reach follow. */
-static Status flood_plane(const Complex& complex, const CurveEdges& curves,
-                          const StraightLines& lines, const FlatFaces& faces, uint32_t seed,
+static Status flood_plane(const Drawing& drawing, const FlatFaces& faces, uint32_t seed,
                           FacePlane* plane, FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
   constexpr uint32_t k_most_planes = 4;
   for (uint32_t i = 0; i < k_most_planes; ++i) {
-    TRY(flood_face(complex, curves, lines, faces, *plane, seed, flood));
+    TRY(flood_face(drawing, faces, *plane, seed, flood));
     double off = 0.0;
     const FacePlane next = plane_of_members(complex, *flood, *plane, &off);
     if (off <= k_exact * plane->flat || i + 1 == k_most_planes) break;
@@ -14982,12 +15234,12 @@ static Status flood_plane(const Complex& complex, const CurveEdges& curves,
 }
 
 /* Whether the triangle goes on, at each of its edges off the curves, on the other side. */
-static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
-                              const StraightLines& lines, const FaceFlood& flood,
+static bool goes_on_all_round(const Drawing& drawing, const FaceFlood& flood,
                               const FacePlane& plane, uint32_t seed, uint32_t t) {
+  const Complex& complex = drawing.complex;
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-    if (on_rim(complex, curves, lines, e)) continue;
+    if (on_rim(drawing, e)) continue;
     if (sides_of(complex, flood, plane, seed, e) != 3) return false;
   }
   return true;
@@ -14995,9 +15247,9 @@ static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
 
 /* Leaves only triangles that go on all round: all of a face where curves close it, nothing where */
 /* not. */
-static Status close_face(const Complex& complex, const CurveEdges& curves,
-                         const StraightLines& lines, const FacePlane& plane, uint32_t seed,
+static Status close_face(const Drawing& drawing, const FacePlane& plane, uint32_t seed,
                          FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
   Array<uint32_t>& left = flood->left;
   TRY(left.copy(flood->member.span()));
   while (!left.empty()) {
@@ -15006,11 +15258,11 @@ static Status close_face(const Complex& complex, const CurveEdges& curves,
     ++flood->work;
     TRY(flood->pause());
     if (flood->mark[t] != seed) continue;
-    if (goes_on_all_round(complex, curves, lines, *flood, plane, seed, t)) continue;
+    if (goes_on_all_round(drawing, *flood, plane, seed, t)) continue;
     flood->mark[t] = k_none;
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (on_rim(complex, curves, lines, e)) continue;
+      if (on_rim(drawing, e)) continue;
       for (const uint32_t next : complex.triangles_of(e)) {
         if (flood->mark[next] == seed) TRY(left.push(next));
       }
@@ -15040,19 +15292,20 @@ static bool turns_well(const Complex& complex, uint32_t e, FaceFlood* flood) {
   return well;
 }
 
-static bool is_polygon(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                       const FacePlane& plane, uint32_t seed, FaceFlood* flood) {
+static bool is_polygon(const Drawing& drawing, const FacePlane& plane, uint32_t seed,
+                       FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
   double whole = 0.0, straight = 0.0;
   bool corners = true;
   for (const uint32_t t : flood->member) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (!on_rim(complex, curves, lines, e)) continue;
+      if (!on_rim(drawing, e)) continue;
       if (sides_of(complex, *flood, plane, seed, e) == 3) continue;
       const double size = length(complex.point[complex.edge[2 * size_t{e}]] -
                                  complex.point[complex.edge[2 * size_t{e} + 1]]);
       whole += size;
-      if (curves.on_curve(e) && flood->straight[e] == 0) continue;
+      if (drawing.curves.on_curve(e) && flood->straight[e] == 0) continue;
       straight += size;
       corners = turns_well(complex, e, flood) && corners;
     }
@@ -15103,25 +15356,26 @@ static bool runs_along(const Complex& complex, const Samples& samples, uint32_t 
   return common > 0.5 * smaller(whole, t - s);
 }
 
-static Status add_face(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const StraightLines& lines, const FacePlane& plane, uint32_t seed,
+static Status add_face(const Drawing& drawing, const FacePlane& plane, uint32_t seed,
                        FaceFlood* flood, FlatFaces* faces) {
+  const Complex& complex = drawing.complex;
+  const StraightLines& lines = drawing.lines;
   for (const uint32_t t : flood->member) {
     faces->part[t] = faces->polygon.back() != 0 ? FlatPart::polygon : FlatPart::disc;
     TRY(faces->triangle.push(t));
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (!on_rim(complex, curves, lines, e)) continue;
+      if (!on_rim(drawing, e)) continue;
       const uint32_t sides = sides_of(complex, *flood, plane, seed, e);
       if (sides == 3) continue;
-      if (curves.on_curve(e)) {
+      if (drawing.curves.on_curve(e)) {
         TRY(add_rim(complex, plane, flood->arc_of[e], e, sides, seed, flood, faces));
         continue;
       }
       const uint32_t* const v = &complex.edge[2 * size_t{e}];
       const uint32_t line = lines.common(v[0], v[1]);
       for (uint32_t i = lines.arc_start[line]; i < lines.arc_start[line + 1]; ++i) {
-        if (!runs_along(complex, samples, lines.arc[i], e)) continue;
+        if (!runs_along(complex, drawing.samples, lines.arc[i], e)) continue;
         TRY(add_rim(complex, plane, lines.arc[i], e, sides, seed, flood, faces));
       }
     }
@@ -15149,20 +15403,21 @@ static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, FacePl
 
 /* Triangles at straight arcs, and those in the planes of others, which every face has, largest */
 /* first. */
-static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                         const StraightLines& lines, double flat, Array<double>* area,
+static Status list_seeds(const Drawing& drawing, double flat, Array<double>* area,
                          Array<uint32_t>* seeds) {
+  const Complex& complex = drawing.complex;
+  const Samples& samples = drawing.samples;
   Pace pace(area->context());
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     FacePlane plane;
-    const bool straight = lines.is_straight(a);
+    const bool straight = drawing.lines.is_straight(a);
     if (!straight && !plane_of_arc(samples, a, flat, &plane)) continue;
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
-      if (curves.edge_of[i] == k_none) continue;
-      for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
+      if (drawing.curves.edge_of[i] == k_none) continue;
+      for (const uint32_t t : complex.triangles_of(drawing.curves.edge_of[i])) {
         TRY(pace.after());
-        if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
+        if ((*area)[t] > 0.0 || is_line(drawing, t)) continue;
         if (!straight && !in_plane(complex, plane, t)) continue;
         (*area)[t] = length(cross_of_triangle(complex, t));
         TRY(seeds->push(t));
@@ -15174,17 +15429,17 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
   });
 }
 
-static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                          const StraightLines& lines, FaceFlood* flood, FlatFaces* faces) {
+static Status start_faces(const Drawing& drawing, FaceFlood* flood, FlatFaces* faces) {
+  const Complex& complex = drawing.complex;
   TRY(faces->part.assign(complex.triangle_count(), FlatPart::none));
   TRY(faces->start.push(0));
   TRY(faces->rim_start.push(0));
-  TRY(find_curves_across(complex, samples, curves, lines, &flood->across));
+  TRY(find_curves_across(drawing, &flood->across));
   TRY(flood->mark.assign(complex.triangle_count(), k_none));
   TRY(flood->visits.assign(complex.triangle_count(), 0));
   TRY(flood->seen.assign(complex.point.size(), 0));
   TRY(flood->border_edge.resize(complex.point.size()));
-  return mark_arcs(complex, samples, curves, lines, flood);
+  return mark_arcs(drawing, flood);
 }
 
 static Status forget_faces(FlatFaces* faces) {
@@ -15199,35 +15454,35 @@ static Status forget_faces(FlatFaces* faces) {
   return {};
 }
 
-Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, double noise,
-                       FlatFaces* faces, size_t most_work) {
+Status find_flat_faces(Context& context, const Drawing& drawing, double noise, FlatFaces* faces,
+                       size_t most_work) {
+  const Complex& complex = drawing.complex;
   const double flat = k_flat * complex.diagonal;
   faces->flat = larger(flat, smaller(k_noise_off_plane * noise, k_most_noise * flat));
   FaceFlood flood(context, most_work);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
-  TRY(start_faces(complex, samples, curves, lines, &flood, faces));
+  TRY(start_faces(drawing, &flood, faces));
   TRY(context.checkpoint());
-  TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
+  TRY(list_seeds(drawing, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
     TRY(flood.pause());
     if (flood.too_much()) return forget_faces(faces);
     if (flood.visits[seed] != 0) continue;
     flood.across.judged.clear();
     FacePlane plane = plane_of(complex, seed, faces->flat);
-    if (is_crossed(complex, lines, plane, seed, seed, &flood.across)) continue;
-    TRY(flood_plane(complex, curves, lines, *faces, seed, &plane, &flood));
+    if (is_crossed(drawing, plane, seed, seed, &flood.across)) continue;
+    TRY(flood_plane(drawing, *faces, seed, &plane, &flood));
     if (flood.too_much()) return forget_faces(faces);
-    TRY(close_face(complex, curves, lines, plane, seed, &flood));
+    TRY(close_face(drawing, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
-    TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
-    TRY(add_face(complex, samples, curves, lines, plane, seed, &flood, faces));
+    TRY(faces->polygon.push(is_polygon(drawing, plane, seed, &flood)));
+    TRY(add_face(drawing, plane, seed, &flood, faces));
   }
   if (faces->size() == 0) return {};
   return in_parts(context, complex.triangle_count(), [&](size_t i) {
     const uint32_t t = static_cast<uint32_t>(i);
-    if (is_line(complex, curves, lines, t)) faces->part[t] = FlatPart::line;
+    if (is_line(drawing, t)) faces->part[t] = FlatPart::line;
   });
 }
 
@@ -15285,15 +15540,11 @@ struct ArcEnds {
 };
 
 struct LidSearch {
-  const Complex* complex = nullptr;
-  const Samples* samples = nullptr;
-  const StraightLines* lines = nullptr;
-  const FlatFaces* faces = nullptr;
-  FaceRims* rims = nullptr;
+  const Drawing& drawing;
+  const FlatFaces& faces;
+  FaceRims* rims;
   ArcEnds ends;
   size_t work = 0;
-
-  explicit LidSearch(Context& context) : ends(context) {}
 };
 
 /* What goes on from a curve, as one face at it sees that. */
@@ -15328,8 +15579,8 @@ static Status link_ends(const Complex& complex, const Samples& samples, ArcEnds*
 
 /* Where an arc leaves a plane through its end, seen from there; zero where it stays for a while. */
 static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
-  const Samples& samples = *search->samples;
-  const double diagonal = search->complex->diagonal;
+  const Samples& samples = search->drawing.samples;
+  const double diagonal = search->drawing.complex.diagonal;
   const uint32_t first = samples.start[end / 2], last = samples.start[end / 2 + 1] - 1;
   const bool forward = (end & 1) == 0;
   const uint32_t from = forward ? first : last;
@@ -15337,7 +15588,7 @@ static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
     const uint32_t i = forward ? first + k : last - k;
     const Vec3 to = samples.position[samples.at[i]] - samples.position[samples.at[from]];
     ++search->work;
-    if (std::fabs(dot(to, normal)) > k_off_plane * search->faces->flat) return to;
+    if (std::fabs(dot(to, normal)) > k_off_plane * search->faces.flat) return to;
     if (std::fabs(samples.along[i] - samples.along[from]) > k_look_along * diagonal) break;
   }
   return {};
@@ -15352,26 +15603,26 @@ static Vec3 tangent_of_end(const Samples& samples, uint32_t end) {
 
 /* Whether a straight curve that ends at the node goes on there. */
 static bool runs_on(const LidSearch& search, uint32_t vertex, uint32_t end) {
-  const uint32_t line = search.lines->line_of[end / 2];
+  const uint32_t line = search.drawing.lines.line_of[end / 2];
   if (line == k_none) return false;
   for (uint32_t i = search.ends.start[vertex]; i < search.ends.start[vertex + 1]; ++i) {
     const uint32_t other = search.ends.end[i];
-    if (other / 2 != end / 2 && search.lines->line_of[other / 2] == line) return true;
+    if (other / 2 != end / 2 && search.drawing.lines.line_of[other / 2] == line) return true;
   }
   return false;
 }
 
 /* A curve that ends in mid-air shows no wall. */
 static bool is_loose(const LidSearch& search, uint32_t end) {
-  const uint32_t v = vertex_of_end(*search.complex, *search.samples, end);
+  const uint32_t v = vertex_of_end(search.drawing.complex, search.drawing.samples, end);
   return search.ends.start[v + 1] - search.ends.start[v] == 1;
 }
 
 /* Walls that curves show which leave the plane at an end of an arc. Those that leave it far apart, */
 /* seen along the arc, are in different walls: two on a side are enough to know. */
 static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, Sheets* sheets) {
-  const uint32_t v = vertex_of_end(*search->complex, *search->samples, rim_end);
-  const Vec3 tangent = tangent_of_end(*search->samples, rim_end);
+  const uint32_t v = vertex_of_end(search->drawing.complex, search->drawing.samples, rim_end);
+  const Vec3 tangent = tangent_of_end(search->drawing.samples, rim_end);
   Vec3 first[2];
   uint32_t count[2] = {};
   for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
@@ -15394,7 +15645,7 @@ static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, S
 
 /* Other flat faces at the same arc. */
 static Sheets faces_beside(LidSearch* search, uint32_t rim, const Vec3& normal) {
-  const FlatFaces& faces = *search->faces;
+  const FlatFaces& faces = search->faces;
   const uint32_t arc = faces.rim[rim].arc;
   Sheets sheets;
   uint32_t up = k_none, down = k_none;
@@ -15423,8 +15674,8 @@ static Sheets faces_beside(LidSearch* search, uint32_t rim, const Vec3& normal) 
 
 /* A wall is flat or shown by curves, maybe both. */
 static Sheets sheets_at(LidSearch* search, uint32_t rim) {
-  const Vec3& normal = search->faces->normal[search->rims->face[rim]];
-  const uint32_t arc = search->faces->rim[rim].arc;
+  const Vec3& normal = search->faces.normal[search->rims->face[rim]];
+  const uint32_t arc = search->faces.rim[rim].arc;
   Sheets sheets = faces_beside(search, rim, normal);
   for (uint32_t k = 0; k < 2; ++k) add_walls(search, 2 * arc + k, normal, &sheets);
   return sheets;
@@ -15437,7 +15688,7 @@ struct RimFacts {
 };
 
 static RimFacts look_round(LidSearch* search, uint32_t face) {
-  const FlatFaces& faces = *search->faces;
+  const FlatFaces& faces = search->faces;
   const bool polygon = faces.polygon[face] != 0;
   RimFacts facts;
   for (uint32_t i = faces.rim_start[face]; i < faces.rim_start[face + 1]; ++i) {
@@ -15483,7 +15734,7 @@ struct Discs {
 /* Sections of what has a lid are in the way of its void: they are open. */
 static Status keep_lids(Context& context, const LidSearch& search, const Discs& discs, Lids which,
                         Array<uint32_t>* lids) {
-  const FlatFaces& faces = *search.faces;
+  const FlatFaces& faces = search.faces;
   const uint32_t arcs = search.rims->arc_count();
   Array<uint32_t> net(context), count(context);
   TRY(find_nets(search.ends, arcs, &net));
@@ -15506,9 +15757,9 @@ static Status keep_lids(Context& context, const LidSearch& search, const Discs& 
 /* Holes that a curve joins to another one stay as they are: walls that do not bulge with a tunnel */
 /* leave gaps at its ends, and the ends' discs are surer. */
 static Status open_holes(Context& context, LidSearch* search, Span<const uint32_t> holes) {
-  const Complex& complex = *search->complex;
-  const Samples& samples = *search->samples;
-  const FlatFaces& faces = *search->faces;
+  const Complex& complex = search->drawing.complex;
+  const Samples& samples = search->drawing.samples;
+  const FlatFaces& faces = search->faces;
   Array<uint32_t> hole_at(context);
   TRY(hole_at.assign(complex.point.size(), k_none));
   const auto each_end = [&](uint32_t f, const auto& visit) {
@@ -15533,19 +15784,13 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
   return {};
 }
 
-Status find_lids(Context& context, const Complex& complex, const Samples& samples,
-                 const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
-                 Array<uint32_t>* lids) {
+Status find_lids(Context& context, const Drawing& drawing, const FlatFaces& faces, Lids which,
+                 FaceRims* rims, Array<uint32_t>* lids) {
   constexpr size_t k_work_per_checkpoint = 1u << 16;
-  LidSearch search(context);
+  LidSearch search = {drawing, faces, rims, ArcEnds(context)};
   Discs discs(context);
   Array<uint8_t> is_disc(context);
-  search.complex = &complex;
-  search.samples = &samples;
-  search.lines = &lines;
-  search.faces = &faces;
-  search.rims = rims;
-  TRY(link_ends(complex, samples, &search.ends));
+  TRY(link_ends(drawing.complex, drawing.samples, &search.ends));
   TRY(is_disc.assign(faces.size(), 0));
   /* Discs count as sheets, too, until they turn out to be sections. */
   for (uint32_t f = 0; f < faces.size(); ++f) {
@@ -15800,15 +16045,16 @@ static Status set_turns(const Complex& complex, const FlatFaces& faces, const Fa
 
 /* Marks the edges of curves where two faces that stay make a crease, or one waits for another, and */
 /* the chords over them. */
-static void mark_needs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const StraightLines& lines, const FlatFaces& faces, const FaceRims& rims,
+static void mark_needs(const Drawing& drawing, const FlatFaces& faces, const FaceRims& rims,
                        Span<Need> need, bool* any_settled) {
+  const Complex& complex = drawing.complex;
+  const CurveEdges& curves = drawing.curves;
   const auto stays = [&](uint32_t f) { return rims.stays(f); };
   for (uint32_t a = 0; a < rims.arc_count(); ++a) {
-    const CurveFault fault = fault_of(faces, lines, rims, a, stays);
+    const CurveFault fault = fault_of(faces, drawing.lines, rims, a, stays);
     if (fault.faces == 0 || fault.flat) continue;
     *any_settled = *any_settled || fault.faces > 1;
-    for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
+    for (uint32_t i = drawing.samples.start[a]; i + 1 < drawing.samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       need[curves.edge_of[i]] = fault.faces == 1 ? Need::waiting : Need::settled;
     }
@@ -15821,9 +16067,9 @@ static void mark_needs(const Complex& complex, const Samples& samples, const Cur
   }
 }
 
-Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
-                       Lids lids, FlatCells* cells) {
+Status find_flat_cells(Context& context, const Drawing& drawing, const FlatFaces& faces, Lids lids,
+                       FlatCells* cells) {
+  const Complex& complex = drawing.complex;
   cells->turn.clear();
   cells->any_settled = false;
   cells->lid_start.clear();
@@ -15834,14 +16080,14 @@ Status find_flat_cells(Context& context, const Complex& complex, const Samples& 
   FaceRims rims(context);
   FaceCells between(context);
   Array<uint32_t> lid_faces(context);
-  TRY(link_rims(faces, static_cast<uint32_t>(samples.start.size() - 1), &rims));
+  TRY(link_rims(faces, static_cast<uint32_t>(drawing.samples.start.size() - 1), &rims));
   TRY(find_face_cells(complex, faces, &rims, &between));
-  TRY(merge_cells(context, samples, lines, faces, &rims, &between));
-  TRY(keep_dangling(faces, lines, &rims));
-  TRY(find_lids(context, complex, samples, lines, faces, lids, &rims, &lid_faces));
+  TRY(merge_cells(context, drawing, faces, &rims, &between));
+  TRY(keep_dangling(faces, drawing.lines, &rims));
+  TRY(find_lids(context, drawing, faces, lids, &rims, &lid_faces));
   TRY(list_lids(complex, faces, lid_faces.span(), cells));
   TRY(set_turns(complex, faces, rims, &between, &cells->turn));
-  mark_needs(complex, samples, curves, lines, faces, rims, cells->need.span(), &cells->any_settled);
+  mark_needs(drawing, faces, rims, cells->need.span(), &cells->any_settled);
   return {};
 }
 
@@ -17023,10 +17269,9 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   StraightLines lines(context);
   FlatFaces faces(context);
   TRY(find_straight_lines(flow->complex, flow->samples, &lines));
-  TRY(find_flat_faces(context, flow->complex, flow->samples, flow->curves, lines, options.noise,
-                      &faces));
-  TRY(find_flat_cells(context, flow->complex, flow->samples, flow->curves, lines, faces,
-                      options.lids, &flow->cells));
+  const Drawing drawing = {flow->complex, flow->samples, flow->curves, lines};
+  TRY(find_flat_faces(context, drawing, options.noise, &faces));
+  TRY(find_flat_cells(context, drawing, faces, options.lids, &flow->cells));
   return find_persistence(context, flow->complex, &flow->persistence, flow->cells.turn.span());
 }
 
@@ -17815,6 +18060,22 @@ static Status count_opposed(Context& context, const Surface& surface, uint32_t* 
   return {};
 }
 
+/* Smooths; `*too_thin`: whether that led nowhere for the shapes of the triangles. */
+static Status try_method(Context& context, const mesh::Topology& topology, smooth::Method method,
+                         Span<const Vec3> start, Span<const uint32_t> unturned, Surface* surface,
+                         bool* too_thin) {
+  const Status status = smooth_flow_surface(context, topology, method, surface);
+  *too_thin = status.code == Code::not_positive_definite;
+  if (*too_thin) return {};
+  TRY(status);
+  Spoilt spoilt(context);
+  const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(),
+                             surface->patch.span(), start, unturned};
+  TRY(find_spoilt(context, mesh, surface->counts.patches, &spoilt));
+  *too_thin = spoilt.first != k_none;
+  return {};
+}
+
 /* What the smoothing changes, to be put back if it leads nowhere. */
 static Status smooth_or_restore(Context& context, const mesh::Topology& topology,
                                 Span<const Vec3> offset, smooth::Method method, Surface* surface,
@@ -17825,8 +18086,10 @@ static Status smooth_or_restore(Context& context, const mesh::Topology& topology
   TRY(copy_in_parts(surface->position.span(), &position));
   TRY(copy_in_parts(surface->triangle.span(), &triangle));
   for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
-  const Status status = smooth_flow_surface(context, topology, method, surface);
-  if (status.ok()) {
+  bool too_thin = false;
+  TRY(try_method(context, topology, method, position.span(), triangle.span(), surface, &too_thin));
+  outcome->normals = NormalsUse::too_thin;
+  if (!too_thin) {
     TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(),
                              k_most_pairs, &pairs));
     if (pairs.empty()) {
@@ -17835,9 +18098,6 @@ static Status smooth_or_restore(Context& context, const mesh::Topology& topology
     }
     outcome->normals = NormalsUse::crossing;
     outcome->normals_places = static_cast<uint32_t>(pairs.size() / 2);
-  } else {
-    if (status.code != Code::not_positive_definite) return status;
-    outcome->normals = NormalsUse::too_thin;
   }
   surface->position = static_cast<Array<Vec3>&&>(position);
   surface->triangle = static_cast<Array<uint32_t>&&>(triangle);
@@ -17953,10 +18213,16 @@ Status surface_from_flow(Context& context, const flow::Flow& flow,
 /* ======== begin src/network/wires.cpp ======== */
 namespace wireskin::network {
 
+/* Every index names itself. */
+static Status count_up_in_parts(Array<uint32_t>* indices) {
+  return in_parts<k_light_steps_per_checkpoint>(
+      indices->context(), indices->size(),
+      [&](size_t i) { (*indices)[i] = static_cast<uint32_t>(i); });
+}
+
 Status DisjointSets::reset(uint32_t size) {
   TRY(parent_.resize(size));
-  for (uint32_t i = 0; i < size; ++i) parent_[i] = i;
-  return {};
+  return count_up_in_parts(&parent_);
 }
 
 uint32_t DisjointSets::find(uint32_t i) {
@@ -17977,10 +18243,11 @@ bool DisjointSets::unite(uint32_t a, uint32_t b) {
 
 Status curve_of_samples(const Wires& wires, Array<uint32_t>* curve) {
   TRY(curve->resize(wires.samples()));
-  for (uint32_t c = 0; c < wires.curves(); ++c) {
-    for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) (*curve)[i] = c;
-  }
-  return {};
+  uint32_t c = 0;
+  return in_parts<k_light_steps_per_checkpoint>(curve->context(), wires.samples(), [&](size_t i) {
+    while (i >= wires.start[c + 1]) ++c;
+    (*curve)[i] = c;
+  });
 }
 
 Status reserve_wires(uint32_t curves, uint32_t samples, bool sharp, Wires* wires) {
@@ -18025,7 +18292,7 @@ static Status unite_places(const Wires& wires, DisjointSets* sets) {
   Context& context = wires.position.context();
   Array<uint32_t> order(context);
   TRY(order.resize(wires.samples()));
-  for (uint32_t i = 0; i < wires.samples(); ++i) order[i] = i;
+  TRY(count_up_in_parts(&order));
   const Span<const Vec3> position = wires.position.span();
   TRY(sort_in_parts(context, order.span(), [position](uint32_t a, uint32_t b) {
     if (position[a] != position[b]) return lies_before(position[a], position[b]);
@@ -18039,7 +18306,7 @@ static Status unite_places(const Wires& wires, DisjointSets* sets) {
 Status number_points(DisjointSets* sets, Wires* wires) {
   Context& context = wires->position.context();
   Array<uint32_t> name(context);
-  TRY(name.assign(wires->samples(), k_none));
+  TRY(assign_in_parts(wires->samples(), k_none, &name));
   TRY(wires->point.resize(wires->samples()));
   wires->points = 0;
   return in_parts(context, wires->samples(), [&](size_t i) {
@@ -18058,7 +18325,7 @@ Status weld(Wires* wires) {
 }
 
 Status list_members(const Wires& wires, PointMembers* members) {
-  TRY(members->first.assign(wires.points + size_t{1}, 0));
+  TRY(assign_in_parts(wires.points + size_t{1}, 0, &members->first));
   TRY(members->member.resize(wires.samples()));
   Context& context = wires.position.context();
   TRY(in_parts(context, wires.samples(), [&](size_t i) { ++members->first[wires.point[i]]; }));
@@ -18102,8 +18369,8 @@ Status automatic_tolerance(const Wires& wires, double diagonal, double* toleranc
   TRY(lengths.reserve(wires.samples()));
   Pace pace(context);
   for (uint32_t c = 0; c < wires.curves(); ++c) {
-    TRY(pace.after(wires.size(c)));
     for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
+      TRY(pace.after());
       const uint32_t j = wires.next(c, i);
       if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
     }
@@ -18188,8 +18455,8 @@ static Status link_ends(const Wires& wires, Chaining chaining, double corner,
   Array<uint8_t> cut(context);
   TRY(list_members(wires, &members));
   TRY(curve_of_samples(wires, &curve));
-  TRY(partner->assign(size_t{2} * wires.curves(), k_none));
-  TRY(cut.assign(size_t{2} * wires.curves(), 0));
+  TRY(assign_in_parts(size_t{2} * wires.curves(), k_none, partner));
+  TRY(assign_in_parts(size_t{2} * wires.curves(), 0, &cut));
   Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
     TRY(pace.after());
@@ -18203,15 +18470,15 @@ static Status link_ends(const Wires& wires, Chaining chaining, double corner,
     (*partner)[b] = a;
   }
   /* Corners are judged while all joints still stand, so that the order does not matter. */
-  for (uint32_t e = 0; e < partner->size(); ++e) {
+  TRY(in_parts(context, partner->size(), [&](size_t end) {
+    const uint32_t e = static_cast<uint32_t>(end);
     cut[e] = (*partner)[e] != k_none && is_corner(wires, partner->span(), e, corner);
-  }
-  for (uint32_t e = 0; e < partner->size(); ++e) {
-    if (!cut[e] || (*partner)[e] == k_none) continue;
+  }));
+  return in_parts(context, partner->size(), [&](size_t e) {
+    if (!cut[e] || (*partner)[e] == k_none) return;
     (*partner)[(*partner)[e]] = k_none;
     (*partner)[e] = k_none;
-  }
-  return {};
+  });
 }
 
 static void append_sample(const Wires& from, uint32_t i, bool backwards, bool sharp, Wires* to) {
@@ -18226,10 +18493,11 @@ static void append_sample(const Wires& from, uint32_t i, bool backwards, bool sh
 
 /* Appends one piece, entered at `end`; the first sample is left out where it was the last one of */
 /* the piece before. A joint takes the normal of the piece that has one. */
-static void append_piece(const Wires& from, uint32_t end, bool joined, Wires* to) {
+static Status append_piece(const Wires& from, uint32_t end, bool joined, Pace* pace, Wires* to) {
   const uint32_t c = end / 2, count = from.size(c);
   const bool backwards = end % 2 != 0;
   for (uint32_t k = 0; k < count; ++k) {
+    TRY(pace->after());
     const uint32_t i = backwards ? from.start[c + 1] - 1 - k : from.start[c] + k;
     if (k == 0 && joined) {
       if (to->normal.back() == Vec3{}) to->normal.back() = from.normal[i];
@@ -18241,6 +18509,7 @@ static void append_piece(const Wires& from, uint32_t end, bool joined, Wires* to
     along.backwards ^= backwards ? 1u : 0u;
     to->along.push_reserved(along);
   }
+  return {};
 }
 
 static void finish_curve(const Wires& from, uint32_t c, bool closed, bool chained, Wires* to) {
@@ -18263,7 +18532,7 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
   Array<uint8_t> used(context);
   Wires result(context);
   TRY(link_ends(*wires, chaining, corner, &partner));
-  TRY(used.assign(wires->curves(), 0));
+  TRY(assign_in_parts(wires->curves(), 0, &used));
   TRY(reserve_wires(wires->curves(), wires->samples(), !wires->right.empty(), &result));
   result.start.push_reserved(0);
   Pace pace(context);
@@ -18273,6 +18542,7 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
     uint32_t enter = 2 * c;
     bool closed = false;
     while (partner[enter] != k_none && !closed) {
+      TRY(pace.after());
       enter = partner[enter] ^ 1;
       closed = enter == 2 * c;
     }
@@ -18280,8 +18550,7 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
     for (uint32_t end = enter; end != k_none; end = partner[end ^ 1]) {
       if (used[end / 2]) break;
       used[end / 2] = 1;
-      append_piece(*wires, end, joined, &result);
-      TRY(pace.after(wires->size(end / 2)));
+      TRY(append_piece(*wires, end, joined, &pace, &result));
       joined = true;
     }
     finish_curve(*wires, c, closed || wires->closed[c], closed, &result);
@@ -18302,14 +18571,14 @@ static bool is_known(const Vec3& normal) {
 }
 
 Status orient_along(Wires* wires, Array<uint8_t>* turned, Array<Contradiction>* contradictions) {
-  TRY(turned->assign(wires->samples(), 0));
+  TRY(assign_in_parts(wires->samples(), 0, turned));
   Pace pace(turned->context());
   for (uint32_t c = 0; c < wires->curves(); ++c) {
-    TRY(pace.after(wires->size(c)));
     if (wires->sharp[c]) continue;
     uint32_t last = k_none, first = k_none;
     Vec3 carried;
     for (uint32_t i = wires->start[c]; i < wires->start[c + 1]; ++i) {
+      TRY(pace.after());
       Vec3& normal = wires->normal[i];
       if (last != k_none) {
         carried = carry_normal(wires->position[i - 1], wires->position[i], carried);
@@ -18326,6 +18595,7 @@ Status orient_along(Wires* wires, Array<uint8_t>* turned, Array<Contradiction>* 
     if (!wires->closed[c] || last == first) continue;
     const uint32_t end = wires->start[c + 1] - 1;
     for (uint32_t i = last; i != first;) {
+      TRY(pace.after());
       const uint32_t next = i == end ? wires->start[c] : i + 1;
       carried = carry_normal(wires->position[i], wires->position[next], carried);
       i = next;
@@ -18344,9 +18614,9 @@ class SignedSets {
   explicit SignedSets(Context& context) : parent_(context), opposite_(context) {}
   Status reset(uint32_t size) {
     TRY(parent_.resize(size));
-    TRY(opposite_.assign(size, 0));
-    for (uint32_t i = 0; i < size; ++i) parent_[i] = i;
-    return {};
+    TRY(assign_in_parts(size, 0, &opposite_));
+    return in_parts<k_light_steps_per_checkpoint>(
+        parent_.context(), size, [&](size_t i) { parent_[i] = static_cast<uint32_t>(i); });
   }
   /* The set of i, and whether i is opposite to it. */
   uint32_t find(uint32_t i, bool* opposite) {
@@ -18495,7 +18765,7 @@ Status orient_across(Wires* wires, Span<uint8_t> turned, Array<Contradiction>* c
   Election election(wires, turned);
   TRY(curve_of_samples(*wires, &election.curve));
   TRY(election.sets.reset(wires->curves()));
-  TRY(election.votes.assign(wires->curves(), Vote{}));
+  TRY(assign_in_parts(wires->curves(), Vote{}, &election.votes));
   TRY(relate_curves(*wires, election.curve.span(), &election.sets, contradictions));
   TRY(count_votes(&election));
   return in_parts(election.curve.context(), wires->samples(), [&](size_t s) {
@@ -18516,12 +18786,28 @@ static bool has_normal(const Wires& wires, uint32_t i) {
   return wires.normal[i] != Vec3{};
 }
 
-/* Fills the samples strictly between a and b, both with normals; `carried` is scratch. */
-static void fill_between(uint32_t c, uint32_t a, uint32_t b, Span<Vec3> carried, Wires* wires) {
+namespace {
+
+struct Filler {
+  Wires* wires;
+  Array<Vec3> carried;  /* scratch, of each sample */
+  Pace pace;
+
+  explicit Filler(Wires* of)
+      : wires(of), carried(of->position.context()), pace(of->position.context()) {}
+};
+
+}  /* namespace */
+
+/* Fills the samples strictly between a and b, both with normals. */
+static Status fill_between(uint32_t c, uint32_t a, uint32_t b, Filler* filler) {
+  Wires* const wires = filler->wires;
+  const Span<Vec3> carried = filler->carried.span();
   const Span<const Vec3> position = wires->position.span();
   double whole = 0.0;
   Vec3 normal = wires->normal[a];
   for (uint32_t i = a; i != b; i = wires->next(c, i)) {
+    TRY(filler->pace.after());
     const uint32_t j = wires->next(c, i);
     whole += length(position[j] - position[i]);
     normal = carry_normal(position[i], position[j], normal);
@@ -18530,6 +18816,7 @@ static void fill_between(uint32_t c, uint32_t a, uint32_t b, Span<Vec3> carried,
   normal = wires->normal[b];
   double left = 0.0;
   for (uint32_t i = b; wires->previous(c, i) != a;) {
+    TRY(filler->pace.after());
     const uint32_t j = wires->previous(c, i);
     left += length(position[j] - position[i]);
     normal = carry_normal(position[i], position[j], normal);
@@ -18538,55 +18825,64 @@ static void fill_between(uint32_t c, uint32_t a, uint32_t b, Span<Vec3> carried,
     wires->normal[j] = mixed == Vec3{} ? carried[j] : mixed;
     i = j;
   }
+  return {};
 }
 
 /* Carries the normal of sample i on to the end of an open curve. */
-static void fill_beyond(uint32_t c, uint32_t i, bool forward, Wires* wires) {
+static Status fill_beyond(uint32_t c, uint32_t i, bool forward, Filler* filler) {
+  Wires* const wires = filler->wires;
   while (true) {
+    TRY(filler->pace.after());
     const uint32_t j = forward ? wires->next(c, i) : wires->previous(c, i);
-    if (j == k_none) return;
+    if (j == k_none) return {};
     wires->normal[j] = carry_normal(wires->position[i], wires->position[j], wires->normal[i]);
     i = j;
   }
 }
 
-static uint32_t count_known(const Wires& wires, uint32_t c) {
-  uint32_t known = 0;
-  for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) known += has_normal(wires, i);
-  return known;
+static Status count_known(uint32_t c, Filler* filler, uint32_t* known) {
+  const Wires& wires = *filler->wires;
+  *known = 0;
+  for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
+    TRY(filler->pace.after());
+    *known += has_normal(wires, i);
+  }
+  return {};
 }
 
 /* For a curve with one normal at least. */
-static void fill_curve(uint32_t c, Span<Vec3> carried, Wires* wires) {
+static Status fill_curve(uint32_t c, Filler* filler) {
+  Wires* const wires = filler->wires;
   uint32_t first = k_none, last = k_none;
   for (uint32_t i = wires->start[c]; i < wires->start[c + 1]; ++i) {
+    TRY(filler->pace.after());
     if (!has_normal(*wires, i)) continue;
     if (first == k_none) first = i;
-    if (last != k_none && last + 1 != i) fill_between(c, last, i, carried, wires);
+    if (last != k_none && last + 1 != i) TRY(fill_between(c, last, i, filler));
     last = i;
   }
   if (!wires->closed[c]) {
-    fill_beyond(c, first, false, wires);
-    fill_beyond(c, last, true, wires);
+    TRY(fill_beyond(c, first, false, filler));
+    TRY(fill_beyond(c, last, true, filler));
   } else if (wires->next(c, last) != first) {
     /* All round from the one normal there is, and back to it: once round is no loop for the walk. */
-    if (first != last) return fill_between(c, last, first, carried, wires);
+    if (first != last) return fill_between(c, last, first, filler);
     const uint32_t far = wires->next(c, first);
     wires->normal[far] =
         carry_normal(wires->position[first], wires->position[far], wires->normal[first]);
-    if (wires->next(c, far) != first) fill_between(c, far, first, carried, wires);
+    if (wires->next(c, far) != first) return fill_between(c, far, first, filler);
   }
+  return {};
 }
 
 Status fill_along(Wires* wires, FillCounts* counts) {
-  Array<Vec3> carried(wires->position.context());
-  TRY(carried.assign(wires->samples(), Vec3{}));
-  Pace pace(wires->position.context());
+  Filler filler(wires);
+  TRY(filler.carried.resize(wires->samples()));
   for (uint32_t c = 0; c < wires->curves(); ++c) {
-    TRY(pace.after(wires->size(c)));
-    const uint32_t known = count_known(*wires, c);
+    uint32_t known = 0;
+    TRY(count_known(c, &filler, &known));
     if (wires->sharp[c] || known == 0 || known == wires->size(c)) continue;
-    fill_curve(c, carried.span(), wires);
+    TRY(fill_curve(c, &filler));
     counts->filled += wires->size(c) - known;
   }
   return {};
@@ -18606,27 +18902,31 @@ Status fill_from_nodes(Wires* wires, FillCounts* counts) {
   Context& context = wires->position.context();
   PointMembers members(context);
   Array<uint32_t> curve(context);
-  Array<Vec3> carried(context), mean(context);
+  Array<Vec3> mean(context);
+  Filler filler(wires);
   TRY(list_members(*wires, &members));
   TRY(curve_of_samples(*wires, &curve));
-  TRY(carried.assign(wires->samples(), Vec3{}));
+  TRY(filler.carried.resize(wires->samples()));
   TRY(mean.resize(wires->points));
   TRY(in_parts(context, wires->points, [&](size_t p) {
     mean[p] = mean_normal(*wires, curve.span(), members[static_cast<uint32_t>(p)]);
   }));
-  Pace pace(context);
   for (uint32_t c = 0; c < wires->curves(); ++c) {
-    TRY(pace.after(wires->size(c)));
-    if (wires->sharp[c] || count_known(*wires, c) != 0) continue;
+    uint32_t known = 0;
+    TRY(count_known(c, &filler, &known));
+    if (wires->sharp[c] || known != 0) continue;
     const uint32_t first = wires->start[c], end = wires->start[c + 1];
-    for (uint32_t i = first; i < end; ++i) wires->normal[i] = mean[wires->point[i]];
-    const bool enough = wires->closed[c] ? count_known(*wires, c) >= 2
+    TRY(in_parts(context, end - first, [&](size_t i) {
+      wires->normal[first + i] = mean[wires->point[first + i]];
+    }));
+    TRY(count_known(c, &filler, &known));
+    const bool enough = wires->closed[c] ? known >= 2
                                          : has_normal(*wires, first) && has_normal(*wires, end - 1);
     if (enough) {
-      fill_curve(c, carried.span(), wires);
+      TRY(fill_curve(c, &filler));
       counts->filled += end - first;
     } else {
-      for (uint32_t i = first; i < end; ++i) wires->normal[i] = Vec3{};
+      TRY(in_parts(context, end - first, [&](size_t i) { wires->normal[first + i] = Vec3{}; }));
       ++counts->missing;
     }
   }
@@ -18644,18 +18944,20 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
   Pace pace(context);
   for (uint32_t p = 0; p < wires->points; ++p) {
     const Span<const uint32_t> own = members[p];
-    TRY(pace.after(own.size()));
+    TRY(pace.after());
     if (own.size() < 2) continue;
     const Vec3 mean = mean_normal(*wires, curve.span(), own);
     bool unite = joined[p] && mean != Vec3{};
     for (uint32_t i : own) {
+      TRY(pace.after());
       if (wires->sharp[curve[i]] || !has_normal(*wires, i)) continue;
       const double angle = angle_between(mean, wires->normal[i]);
       unite = unite && angle <= k_most_united;
       const uint32_t other = i == own[0] ? own[1] : own[0];
       if (angle > k_limit || mean == Vec3{}) {
-        TRY(contradictions->push({wires->origin[i], wires->origin[other],
-                                  angle_between(wires->normal[i], wires->normal[other])}));
+        TRY(make_room_in_parts(1, contradictions));
+        contradictions->push_reserved({wires->origin[i], wires->origin[other],
+                                       angle_between(wires->normal[i], wires->normal[other])});
       }
     }
     for (uint32_t i : own) {
@@ -18896,7 +19198,7 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
   Array<Box> box(context);
   Array<uint32_t> sample(context), near(context);
   BoxTree tree(context);
-  TRY(bulge.assign(wires.samples(), 0.0));
+  TRY(assign_in_parts(wires.samples(), 0.0, &bulge));
   TRY(box.reserve(wires.samples()));
   TRY(sample.reserve(wires.samples()));
   TRY(in_parts(context, wires.samples(), [&](size_t s) {
@@ -18913,6 +19215,7 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
   for (uint32_t e = 0; e < box.size(); ++e) {
     TRY(tree.find(box[e], e, &near));
     TRY(pace.after(k_steps_of_search));
+    TRY(make_room_in_parts(near.size(), approaches));
     for (const uint32_t other : near) {
       TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
       TRY(pace.after());
@@ -19100,7 +19403,8 @@ Status Snapper::unite(const Meeting& m, SnapResult* result) {
   snap.distance = length(m.at_a - m.at_b);
   if (beads_.is_end(x) || beads_.is_end(z)) snap.kind = SnapKind::end_inside;
   if (beads_.is_end(x) && beads_.is_end(z)) snap.kind = SnapKind::end_end;
-  TRY(result->snaps.push(snap));
+  TRY(make_room_in_parts(1, &result->snaps));
+  result->snaps.push_reserved(snap);
   beads_.unite(x, z);
   return {};
 }
@@ -19131,7 +19435,7 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
 Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
                          SnapResult* result) {
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
-  constexpr size_t k_steps_of_join = 512;  /* it may pass all joints of an edge */
+  constexpr size_t k_steps_of_join = 512;  /* it may search all within four tolerances */
   Pace pace(context());
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
@@ -19168,8 +19472,8 @@ Status Snapper::count_open(Span<const Approach> approaches, Span<const uint8_t> 
   const auto less = [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; };
   TRY(sort_in_parts(context(), pairs.span(), less));
   *open = 0;
-  for (size_t k = 0; k < pairs.size(); ++k) *open += k == 0 || less(pairs[k - 1], pairs[k]);
-  return {};
+  return in_parts(context(), pairs.size(),
+                  [&](size_t k) { *open += k == 0 || less(pairs[k - 1], pairs[k]); });
 }
 
 Status Snapper::run(SnapResult* result) {
@@ -19188,8 +19492,8 @@ Status Snapper::run(SnapResult* result) {
   };
   TRY(sort_in_parts(context(), approaches.span(), nearer));
   TRY(beads_.string_samples(approaches.size()));
-  TRY(best_.assign(beads_.room(), 0.0));
-  TRY(stamp_.assign(beads_.room(), 0));
+  TRY(assign_in_parts(beads_.room(), 0.0, &best_));
+  TRY(assign_in_parts(beads_.room(), 0, &stamp_));
   SnapPlan plan(context());
   TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), &plan));
   TRY(count_open(approaches.span(), plan.beside.span(), &result->open_before));
@@ -19242,10 +19546,10 @@ static Status check_numbers(const Wires& wires, double tolerance) {
 /* Points whose samples were not all one node of the caller's. */
 static Status find_new_points(const Wires& wires, Array<uint8_t>* joined) {
   Array<uint32_t> number(wires.position.context());
-  TRY(number.assign(wires.points, k_none));
-  TRY(joined->assign(wires.points, 0));
+  TRY(assign_in_parts(wires.points, k_none, &number));
+  TRY(assign_in_parts(wires.points, 0, joined));
   Array<uint8_t> seen(wires.position.context());
-  TRY(seen.assign(wires.points, 0));
+  TRY(assign_in_parts(wires.points, 0, &seen));
   return in_parts(wires.position.context(), wires.samples(), [&](size_t i) {
     const uint32_t p = wires.point[i];
     if (seen[p] && (number[p] != wires.number[i] || number[p] == k_none)) (*joined)[p] = 1;
@@ -19261,7 +19565,7 @@ static Status complete_normals(const ConnectOptions& options, Wires* wires, Conn
   TRY(fill_along(wires, &result->normals));
   if (options.orient) {
     TRY(orient_across(wires, turned.span(), &result->contradictions));
-    for (uint8_t t : turned) result->turned += t;
+    TRY(in_parts(context, turned.size(), [&](size_t i) { result->turned += turned[i]; }));
   }
   TRY(fill_from_nodes(wires, &result->normals));
   TRY(find_new_points(*wires, &joined));
@@ -19316,8 +19620,8 @@ static uint32_t unused_number(Span<const uint32_t> used, size_t* at, uint32_t ca
 
 static Status number_nodes(Context& context, const network::Wires& wires, NodeNumbers* numbers) {
   Array<uint32_t> least_number(context), members(context), used(context);
-  TRY(least_number.assign(wires.points, k_none));
-  TRY(members.assign(wires.points, 0));
+  TRY(assign_in_parts(wires.points, k_none, &least_number));
+  TRY(assign_in_parts(wires.points, 0, &members));
   TRY(used.reserve(wires.samples()));
   TRY(numbers->of_sample.resize(wires.samples()));
   TRY(in_parts(context, wires.samples(), [&](size_t i) {
@@ -19331,13 +19635,13 @@ static Status number_nodes(Context& context, const network::Wires& wires, NodeNu
   const uint32_t most = used.empty() ? 0 : used.back();
   uint32_t next = used.empty() ? 0 : most < k_none - 1 - wires.points ? most + 1 : 0;
   size_t at = next > most ? used.size() : 0;
-  for (uint32_t p = 0; p < wires.points; ++p) {
-    if (members[p] < 2 || least_number[p] != k_none) continue;
+  TRY(in_parts(context, wires.points, [&](size_t p) {
+    if (members[p] < 2 || least_number[p] != k_none) return;
     next = unused_number(used.span(), &at, next);
     numbers->least_fresh = next < numbers->least_fresh ? next : numbers->least_fresh;
     numbers->most_fresh = next;
     least_number[p] = next++;
-  }
+  }));
   return in_parts(context, wires.samples(), [&](size_t i) {
     const uint32_t p = wires.point[i];
     numbers->of_sample[i] = members[p] < 2 ? wires.number[i] : least_number[p];
@@ -19391,36 +19695,43 @@ static wsk_place place_of(const network::Origin& origin, const Vec3& position) {
   return {origin.curve, origin.sample, origin.part, {position.x, position.y, position.z}};
 }
 
-static const double* normals_or_null(const double* normals, size_t first, size_t count) {
-  for (size_t i = 3 * first; i < 3 * (first + count); ++i) {
-    if (normals[i] != 0.0) return normals + 3 * first;
+/* Those of a curve, null where it has none. */
+static Status find_normals(const double* normals, size_t first, size_t count, Pace* pace,
+                           const double** found) {
+  *found = nullptr;
+  for (size_t i = 3 * first; i < 3 * (first + count) && *found == nullptr; ++i) {
+    TRY(pace->after());
+    if (normals[i] != 0.0) *found = normals + 3 * first;
   }
-  return nullptr;
+  return {};
 }
 
 /* The curves of the view, which point into the arrays of the block. */
-static const wsk_curve* write_curves(const network::Wires& wires, const NetworkLayout& layout,
-                                     unsigned char* block) {
+static Status write_curves(const network::Wires& wires, const NetworkLayout& layout,
+                           unsigned char* block, wsk_network_view* view) {
   wsk_curve* curves = reinterpret_cast<wsk_curve*>(block + layout.curves);
   const double* positions = reinterpret_cast<const double*>(block + layout.positions);
   const double* normals = reinterpret_cast<const double*>(block + layout.normals);
   const double* right = reinterpret_cast<const double*>(block + layout.right);
   const uint32_t* nodes = reinterpret_cast<const uint32_t*>(block + layout.nodes);
+  Pace pace(wires.position.context());
   for (uint32_t c = 0; c < wires.curves(); ++c) {
     const uint32_t first = wires.start[c], count = wires.size(c);
+    TRY(pace.after());
     wsk_curve curve = {};
     curve.sample_count = count;
     curve.positions = positions + 3 * size_t{first};
-    curve.normals = normals_or_null(normals, first, count);
+    TRY(find_normals(normals, first, count, &pace, &curve.normals));
     curve.nodes = nodes + first;
     curve.closed = wires.closed[c];
     curve.boundary = wires.boundary[c];
     curve.soft = wires.soft[c];
     curve.sharp = wires.sharp[c];
-    if (curve.sharp != 0) curve.normals_right = normals_or_null(right, first, count);
+    if (curve.sharp != 0) TRY(find_normals(right, first, count, &pace, &curve.normals_right));
     curves[c] = curve;
   }
-  return curves;
+  view->curves = curves;
+  return {};
 }
 
 static wsk_network_counts counts_of(const network::WireCounts& counts, uint32_t open_gaps) {
@@ -19428,21 +19739,22 @@ static wsk_network_counts counts_of(const network::WireCounts& counts, uint32_t 
           counts.dangling, counts.components, open_gaps};
 }
 
-static void write_events(const network::ConnectResult& result, const Scale& lengths,
-                         const NetworkLayout& layout, unsigned char* block,
-                         wsk_network_view* view) {
+static Status write_events(const network::ConnectResult& result, const Scale& lengths,
+                           const NetworkLayout& layout, unsigned char* block,
+                           wsk_network_view* view) {
+  Context& context = result.contradictions.context();
   wsk_snap* snaps = reinterpret_cast<wsk_snap*>(block + layout.snaps);
-  for (size_t k = 0; k < result.snapping.snaps.size(); ++k) {
+  TRY(in_parts(context, result.snapping.snaps.size(), [&](size_t k) {
     const network::Snap& snap = result.snapping.snaps[k];
     snaps[k] = {place_of(snap.a, lengths(snap.at_a)), place_of(snap.b, lengths(snap.at_b)),
                 lengths(snap.distance), static_cast<wsk_snap_kind>(snap.kind)};
-  }
+  }));
   wsk_contradiction* contradictions =
       reinterpret_cast<wsk_contradiction*>(block + layout.contradictions);
-  for (size_t k = 0; k < result.contradictions.size(); ++k) {
+  TRY(in_parts(context, result.contradictions.size(), [&](size_t k) {
     const network::Contradiction& c = result.contradictions[k];
     contradictions[k] = {place_of(c.a, {}), place_of(c.b, {}), c.angle * (180.0 / k_pi)};
-  }
+  }));
   view->snaps = snaps;
   view->contradictions = contradictions;
   view->snap_count = static_cast<uint32_t>(result.snapping.snaps.size());
@@ -19453,6 +19765,7 @@ static void write_events(const network::ConnectResult& result, const Scale& leng
   view->filled_normals = result.normals.filled;
   view->turned_normals = result.turned;
   view->curves_without_normals = result.normals.missing;
+  return {};
 }
 
 /* The normals of sample i on both sides, as far as there are two. */
@@ -19515,8 +19828,8 @@ Status make_network(Context& context, const network::Wires& wires,
   const double* positions = nullptr;  /* the curves point into them */
   TRY(write_vectors(context, wires.position.span(), lengths, block + layout.positions, &positions));
   TRY(write_samples(wires, numbers, layout, given, block, &view));
-  view.curves = write_curves(wires, layout, block);
-  write_events(result, lengths, layout, block, &view);
+  TRY(write_curves(wires, layout, block, &view));
+  TRY(write_events(result, lengths, layout, block, &view));
   return context.progress(1.0);
 }
 
@@ -19626,7 +19939,7 @@ static Status read_sensor_sample(const wsk_sensor_curve& curve, uint32_t index, 
   return {};
 }
 
-static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
+static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index, Pace* pace,
                                 SensorCurves* sensor) {
   if (curve.sample_count < (curve.closed != 0 ? 4u : 2u)) {
     return fail(Code::too_few_samples, "the curve has too few samples", curve_place(index));
@@ -19635,9 +19948,8 @@ static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
     return fail(Code::bad_argument, "the curve has no arc lengths or no tangents",
                 curve_place(index));
   }
-  Pace pace(sensor->arc.context());
   for (uint32_t i = 0; i < curve.sample_count; ++i) {
-    TRY(pace.after());
+    TRY(pace->after());
     TRY(read_sensor_sample(curve, index, i, sensor));
   }
   network::Wires& wires = sensor->wires;
@@ -19659,7 +19971,8 @@ Status read_sensor_curves(const wsk_sensor_curve* curves, size_t count, SensorCu
   TRY(sensor->tangent.reserve(total));
   TRY(sensor->to_next.reserve(count));
   sensor->wires.start.push_reserved(0);
-  for (uint32_t c = 0; c < count; ++c) TRY(read_sensor_curve(curves[c], c, sensor));
+  Pace pace(sensor->arc.context());
+  for (uint32_t c = 0; c < count; ++c) TRY(read_sensor_curve(curves[c], c, &pace, sensor));
   return {};
 }
 
@@ -22193,8 +22506,10 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
   });
 }
 
-static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
-                         CurvesAcross* across) {
+static Status list_lines(const Drawing& drawing, CurvesAcross* across) {
+  const Complex& complex = drawing.complex;
+  const Samples& samples = drawing.samples;
+  const StraightLines& lines = drawing.lines;
   for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
     if (line % k_arcs_per_pause == 0) TRY(across->line_end.context().checkpoint());
     const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
@@ -22227,11 +22542,12 @@ static Status list_lines(const Complex& complex, const Samples& samples, const S
   return across->plane_line.reserve(across->line_end.size());
 }
 
-static Status list_curved(const Complex& complex, const Samples& samples,
-                          const StraightLines& lines, CurvesAcross* across) {
+static Status list_curved(const Drawing& drawing, CurvesAcross* across) {
+  const Complex& complex = drawing.complex;
+  const Samples& samples = drawing.samples;
   Array<Vec3> point(across->curved.context());
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
-    if (lines.is_straight(a)) continue;
+    if (drawing.lines.is_straight(a)) continue;
     for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
       TRY(across->curved.push(complex.same_as[samples.at[i]]));
       TRY(point.push(complex.point[across->curved.back()]));
@@ -22240,13 +22556,13 @@ static Status list_curved(const Complex& complex, const Samples& samples,
   return across->grid.build(point.span());
 }
 
-Status find_curves_across(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                          const StraightLines& lines, CurvesAcross* across) {
-  TRY(list_lines(complex, samples, lines, across));
-  TRY(list_curved(complex, samples, lines, across));
+Status find_curves_across(const Drawing& drawing, CurvesAcross* across) {
+  const Complex& complex = drawing.complex;
+  TRY(list_lines(drawing, across));
+  TRY(list_curved(drawing, across));
   TRY(across->crossed.assign(complex.triangle_count(), Crossed::unknown));
   TRY(across->judged.reserve(complex.triangle_count()));
-  return link_segments(complex, curves, across);
+  return link_segments(complex, drawing.curves, across);
 }
 
 /* The complex is embedded: where no flat tetrahedron lies at a triangle no edge runs over it. */
@@ -22263,13 +22579,14 @@ static bool has_flat_neighbour(const Complex& complex, const FacePlane& plane, u
   return false;
 }
 
-bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
-                uint32_t seed, uint32_t t, CurvesAcross* across) {
+bool is_crossed(const Drawing& drawing, const FacePlane& plane, uint32_t seed, uint32_t t,
+                CurvesAcross* across) {
+  const Complex& complex = drawing.complex;
   if (!has_flat_neighbour(complex, plane, t)) return false;
   if (across->crossed[t] == Crossed::unknown) {
     const PlaneTriangle triangle = place_triangle(complex, plane, t);
     const bool crossed = any_line_crosses(complex, plane, seed, triangle, across) ||
-                         any_bend_crosses(complex, lines, plane, triangle, across);
+                         any_bend_crosses(complex, drawing.lines, plane, triangle, across);
     across->crossed[t] = crossed ? Crossed::yes : Crossed::no;
     across->judged.push_reserved(t);
   }
@@ -22414,9 +22731,8 @@ static double cost_of(const CurveFault& fault) {
 
 /* What the curves gain if the cells on both sides of these faces become one; below zero if one */
 /* would have fewer than two faces left. */
-static double gain_of(const FlatFaces& faces, const StraightLines& lines, const Samples& samples,
-                      const FaceRims& rims, FaceCells* cells, const CellPair& pair,
-                      Merging* merging) {
+static double gain_of(const Drawing& drawing, const FlatFaces& faces, const FaceRims& rims,
+                      FaceCells* cells, const CellPair& pair, Merging* merging) {
   double gain = 0.0;
   bool bares = false;
   const auto each_arc = [&](const auto& visit) {
@@ -22443,9 +22759,10 @@ static double gain_of(const FlatFaces& faces, const StraightLines& lines, const 
     if (now - gone > 2) return;
     const auto any = [](uint32_t) { return true; };
     const CurveFault before =
-        now > 2 ? CurveFault{now, false} : fault_of(faces, lines, rims, arc, now, any);
-    const CurveFault after = fault_of(faces, lines, rims, arc, now, remains);
-    gain += samples.along[samples.start[arc + 1] - 1] * (cost_of(before) - cost_of(after));
+        now > 2 ? CurveFault{now, false} : fault_of(faces, drawing.lines, rims, arc, now, any);
+    const CurveFault after = fault_of(faces, drawing.lines, rims, arc, now, remains);
+    gain += drawing.samples.along[drawing.samples.start[arc + 1] - 1] *
+            (cost_of(before) - cost_of(after));
   });
   return bares ? -1.0 : gain;
 }
@@ -22560,8 +22877,8 @@ static void merge_pair(const FlatFaces& faces, const CellPair& pair, CellForest*
   forest->join(pair.low, pair.high);
 }
 
-Status merge_cells(Context& context, const Samples& samples, const StraightLines& lines,
-                   const FlatFaces& faces, FaceRims* rims, FaceCells* cells) {
+Status merge_cells(Context& context, const Drawing& drawing, const FlatFaces& faces, FaceRims* rims,
+                   FaceCells* cells) {
   Merging merging(context);
   const size_t cell_count = cells->forest.parent.size();
   TRY(merging.live.assign(rims->arc_count(), 0));
@@ -22576,7 +22893,7 @@ Status merge_cells(Context& context, const Samples& samples, const StraightLines
     TRY(list_pairs(faces, rims, cells, &merging));
     gather_live(rims, &merging);
     for (CellPair& pair : merging.pair) {
-      pair.gain = gain_of(faces, lines, samples, *rims, cells, pair, &merging);
+      pair.gain = gain_of(drawing, faces, *rims, cells, pair, &merging);
       if (merging.work < k_rims_per_pause) continue;
       merging.work = 0;
       TRY(context.checkpoint());
@@ -25331,7 +25648,7 @@ static Status check_shapes(const Expectations& mesh) {
     const Vec3& c = mesh.position[mesh.triangle[3 * t + 2]];
     const double longest2 = larger(dot(b - a, b - a), larger(dot(c - b, c - b), dot(a - c, a - c)));
     const Vec3 area = area_vector(mesh, t);
-    if (!(length(area) > k_least_height * longest2)) {
+    if (!mesh.may_be_flat && !(length(area) > k_least_height * longest2)) {
       return bad_triangle("the triangle has no area", t);
     }
     if (mesh.patch_normal.empty()) continue;
@@ -25593,6 +25910,19 @@ Status raise_dome(Context& context, const Loops& loops, uint32_t held,
   return bend_least(bending, held, position);
 }
 
+/* Takes back a field that grew to many times what it spreads from: that is no shape, but needles */
+/* over which second differences are next to nothing. */
+static void take_back_overgrown(uint32_t held, Span<Vec3> shift) {
+  constexpr double k_most_growth = 100.0;
+  double given = 0.0, spread = 0.0;
+  for (uint32_t v = 0; v < shift.size(); ++v) {
+    double& greatest = v < held ? given : spread;
+    greatest = larger(greatest, length(shift[v]));
+  }
+  if (spread <= k_most_growth * given) return;
+  for (uint32_t v = held; v < shift.size(); ++v) shift[v] = Vec3{};
+}
+
 Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
                     Span<const uint32_t> triangle, Span<Vec3> shift) {
   if (held == position.size()) return {};
@@ -25600,7 +25930,10 @@ Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
   TRY(take_mesh(position, triangle, held, &bending));
   for (double& weight : bending.weight) weight = 1.0 / weight;
   const Status status = bend_least(bending, held, shift);
-  return status.code == Code::not_positive_definite ? Status{} : status;
+  if (status.code == Code::not_positive_definite) return {};
+  TRY(status);
+  take_back_overgrown(held, shift);
+  return {};
 }
 
 }  /* namespace wireskin::mesh */
@@ -26877,7 +27210,8 @@ Status BoxTree::build(Span<const Box> boxes) {
   TRY(order_.resize(count));
   TRY(node_.resize(nodes));
   if (count == 0) return {};
-  for (uint32_t i = 0; i < count; ++i) order_[i] = i;
+  TRY(in_parts<k_light_steps_per_checkpoint>(
+      order_.context(), count, [&](size_t i) { order_[i] = static_cast<uint32_t>(i); }));
   RangeStack todo;
   todo.push({0, 0, count});
   size_t work = 0;
@@ -26897,9 +27231,11 @@ Status BoxTree::build(Span<const Box> boxes) {
 
 Status BoxTree::find(const Box& box, uint32_t after, Array<uint32_t>* found) const {
   found->clear();
+  Pace pace(order_.context());
   RangeStack todo;
   todo.push({0, 0, static_cast<uint32_t>(order_.size())});
   while (todo.size > 0) {
+    TRY(pace.after());
     const TreeRange range = todo.pop();
     if (range.count == 0 || !boxes_meet(box, node_[range.node])) continue;
     if (!range.is_leaf()) {
@@ -26912,8 +27248,8 @@ Status BoxTree::find(const Box& box, uint32_t after, Array<uint32_t>* found) con
       if (other > after && boxes_meet(box, boxes_[other])) TRY(found->push(other));
     }
   }
-  sort(found->span(), [](uint32_t a, uint32_t b) { return a < b; });
-  return {};
+  const auto ascending = [](uint32_t a, uint32_t b) { return a < b; };
+  return sort_in_parts(order_.context(), found->span(), ascending);
 }
 
 }  /* namespace wireskin::network */
@@ -26927,7 +27263,7 @@ Status Beads::string_samples(size_t joints) {
   const size_t room = n + 2 * joints;
   if (room >= k_none) return fail(Code::too_large, "too many near places for 32-bit indices");
   TRY(bead.reserve(room));
-  TRY(touched.assign(room, 0));
+  TRY(assign_in_parts(room, 0, &touched));
   TRY(sets.reset(static_cast<uint32_t>(room)));
   PointMembers members(context());
   TRY(list_members(wires, &members));
@@ -26983,12 +27319,14 @@ Origin Beads::origin_of(const WirePlace& place) const {
 }
 
 BeadPlace Beads::locate(const WirePlace& place) const {
-  uint32_t b = place.edge;
-  if (place.part == 0.0) return {b, 0.0};
-  while (bead[bead[b].next].part != 0.0 && bead[bead[b].next].part <= place.part) {
-    b = bead[b].next;
+  if (place.part == 0.0) return {place.edge, 0.0};
+  uint32_t found = place.edge;
+  for (uint32_t b = bead[found].upper; b != k_none;) {
+    const bool beyond = bead[b].part > place.part;
+    if (!beyond) found = b;
+    b = beyond ? bead[b].lower : bead[b].upper;
   }
-  return {b, (place.part - bead[b].part) * edge_length(place.edge)};
+  return {found, (place.part - bead[found].part) * edge_length(place.edge)};
 }
 
 uint32_t Beads::special_near(const BeadPlace& place, double to_end, double to_node) const {
@@ -27046,6 +27384,35 @@ WirePlace Beads::nearest_place(const WirePlace& near, const Vec3& target, double
   return best;
 }
 
+/* A bead's rank in the tree, drawn by lot, so that the tree is shallow in any order of the beads */
+/* that was not made for these ranks: the mixing of S. Vigna's splitmix64 (2015), which gives no rank */
+/* twice. */
+static uint64_t lot(uint32_t b) {
+  uint64_t z = (b + 1ull) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return z ^ (z >> 31);
+}
+
+void Beads::plant(uint32_t b) {
+  const double part = bead[b].part;
+  uint32_t* place = &bead[bead[b].edge].upper;
+  while (*place != k_none && lot(*place) > lot(b)) {
+    place = bead[*place].part < part ? &bead[*place].upper : &bead[*place].lower;
+  }
+  uint32_t rest = *place;
+  *place = b;
+  /* What was there is parted into what is less and what is more. */
+  uint32_t *less = &bead[b].lower, *more = &bead[b].upper;
+  while (rest != k_none) {
+    uint32_t*& end = bead[rest].part < part ? less : more;
+    *end = rest;
+    end = bead[rest].part < part ? &bead[rest].upper : &bead[rest].lower;
+    rest = *end;
+  }
+  *less = *more = k_none;
+}
+
 uint32_t Beads::make_bead(const WirePlace& place) {
   const BeadPlace at = locate(place);
   constexpr double k_same = 1e-3;  /* of the edge: nearer than this a sample serves */
@@ -27066,6 +27433,7 @@ uint32_t Beads::make_bead(const WirePlace& place) {
   bead[at.bead].to_next = at.behind;
   bead[fresh.next].previous = index;
   bead.push_reserved(fresh);
+  plant(index);
   return index;
 }
 
@@ -27113,40 +27481,44 @@ static double fade(double t) {
 }
 
 /* Spreads the displacement of pin `i` one way, until the next pin; `step` is 1 or -1. */
-static void spread_pin(const Bend& bend, size_t i, bool forward) {
+static Status spread_pin(const Bend& bend, size_t i, bool forward, Pace* pace) {
   const size_t n = bend.arc.size();
   const Vec3 shift = bend.displacement[i];
   const double support = k_support * length(shift);
-  const auto walk = [&](const auto& visit) {
+  const auto walk = [&](const auto& visit) -> Status {
     double wrapped = 0.0;
     for (size_t k = i, steps = 0; steps < n; ++steps) {
+      TRY(pace->after());
       const bool over = forward ? k + 1 == n : k == 0;
-      if (over && !bend.closed) return;
+      if (over && !bend.closed) return {};
       if (over) wrapped = bend.length;
       k = forward ? (over ? 0 : k + 1) : (over ? n - 1 : k - 1);
       const double away =
           forward ? bend.arc[k] + wrapped - bend.arc[i] : bend.arc[i] + wrapped - bend.arc[k];
-      if (!visit(k, away)) return;
+      if (!visit(k, away)) return {};
     }
+    return {};
   };
   double reach = support;
-  walk([&](size_t k, double away) {
+  TRY(walk([&](size_t k, double away) {
     if (bend.pinned[k] && away < reach) reach = away;
     return !bend.pinned[k] && away < support;
-  });
-  walk([&](size_t k, double away) {
+  }));
+  return walk([&](size_t k, double away) {
     if (bend.pinned[k] || !(away < reach)) return false;
     bend.displacement[k] += fade(away / reach) * shift;
     return true;
   });
 }
 
-void bend_curve(const Bend& bend) {
+Status bend_curve(const Bend& bend, Pace* pace) {
   for (size_t i = 0; i < bend.arc.size(); ++i) {
+    TRY(pace->after());
     if (!bend.pinned[i] || bend.displacement[i] == Vec3{}) continue;
-    spread_pin(bend, i, true);
-    spread_pin(bend, i, false);
+    TRY(spread_pin(bend, i, true, pace));
+    TRY(spread_pin(bend, i, false, pace));
   }
+  return {};
 }
 
 }  /* namespace wireskin::network */
@@ -28224,65 +28596,17 @@ static constexpr size_t k_triangles_per_checkpoint = 8192;
 
 namespace {
 
-/* An edge inside a patch between two curve vertices, a < b; or with patch k_none an edge of a */
-/* curve. */
-struct Chord {
-  uint32_t a, b;
-  uint32_t patch;
-};
-
-/* The corners of a triangle, in space or in its patch's plane (z = 0; the same vertex then has */
-/* another place in each patch). */
-struct TriangleCorners {
-  uint32_t triangle;
-  Vec3 at[3];
-};
-
-/* What is gathered over all patches; `cornered`: the triangles that have chords, ascending. */
-struct Builder {
-  PatchMesh* mesh;
-  Array<TriangleCorners> cornered;
-  Array<Chord> chord;
-  Array<uint32_t> patch_start;  /* first triangle of each patch, before chords are split */
-  Array<uint8_t> raised;        /* of each patch */
-
-  explicit Builder(Context& context, PatchMesh* result)
-      : mesh(result), cornered(context), chord(context), patch_start(context), raised(context) {}
-};
-
-/* Memory for one patch, reused: the border, the vertices of the patch that are on curves (those of */
-/* the loops, then inner ones), the mesh either way, and what both come to: triangles over these */
-/* vertices and free ones behind them, the corners' places for the metric, and where the free */
-/* vertices may start in space. */
+/* Memory for one patch, reused: the mesh either way, and what both come to: the corners' places for */
+/* the metric, and where the free vertices, those behind the domain's, may start in space. */
 struct PatchScratch {
-  Border border;
-  Array<uint32_t> local;         /* of each curve vertex, k_none between patches */
-  Array<uint32_t> vertex;        /* of each local one the curve vertex */
-  Array<uint32_t> loop;          /* local, in the order of the border */
-  Array<uint32_t> inner_edge;    /* two local ones each */
-  Array<Chord> curve_edge;       /* local, a < b, sorted: loops' and inner edges */
-  uint32_t isolated = 0;         /* so many of the last local vertices are points */
-  Array<Vec3> position, normal;  /* of the local vertices */
-  Array<Vec2> flat;
+  PatchDomain domain;
   planar::PolygonMesh planar;
   SpaceMesh spatial;
   Array<Vec3> place;
   Array<Vec3> inner;
 
   explicit PatchScratch(Context& context)
-      : border(context),
-        local(context),
-        vertex(context),
-        loop(context),
-        inner_edge(context),
-        curve_edge(context),
-        position(context),
-        normal(context),
-        flat(context),
-        planar(context),
-        spatial(context),
-        place(context),
-        inner(context) {}
+      : domain(context), planar(context), spatial(context), place(context), inner(context) {}
 };
 
 }  /* namespace */
@@ -28302,101 +28626,10 @@ static Status at_patch(Status status, const Network& network, uint32_t patch) {
   return status;
 }
 
-static bool before(const Chord& x, const Chord& y) {
-  if (x.a != y.a) return x.a < y.a;
-  return x.b != y.b ? x.b < y.b : x.patch < y.patch;
-}
-
-static Status add_vertex(uint32_t v, const CurveVertices& vertices, const Vec3& normal,
-                         PatchScratch* scratch, uint32_t* local) {
-  if (scratch->local[v] == k_none) {
-    scratch->local[v] = static_cast<uint32_t>(scratch->vertex.size());
-    TRY(scratch->vertex.push(v));
-    TRY(scratch->position.push(vertices.position[v]));
-    TRY(scratch->normal.push(normal));
-  }
-  *local = scratch->local[v];
-  return {};
-}
-
-static Status add_edge(uint32_t a, uint32_t b, PatchScratch* scratch) {
-  return scratch->curve_edge.push(a < b ? Chord{a, b, k_none} : Chord{b, a, k_none});
-}
-
-/* Numbers the curve vertices of a patch and lists its edges. */
-static Status take_domain(const Network& network, const CurveVertices& vertices, uint32_t patch,
-                          PatchScratch* scratch) {
-  TRY(border_of_patch(network, vertices, patch, &scratch->border));
-  const Border& border = scratch->border;
-  for (uint32_t v : scratch->vertex) scratch->local[v] = k_none;
-  scratch->vertex.clear();
-  scratch->position.clear();
-  scratch->normal.clear();
-  scratch->inner_edge.clear();
-  scratch->curve_edge.clear();
-  TRY(scratch->loop.resize(border.size()));
-  for (uint32_t i = 0; i < border.size(); ++i) {
-    TRY(add_vertex(border.vertex[i], vertices, border.normal[i], scratch, &scratch->loop[i]));
-  }
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      TRY(add_edge(scratch->loop[i], scratch->loop[next_on_border(border, l, i)], scratch));
-    }
-  }
-  for (uint32_t s : network.inner[patch]) {
-    uint32_t last = k_none, local = k_none;
-    for (uint32_t k = 0; k <= vertices.edges[s]; ++k, last = local) {
-      const uint32_t v = segment_vertex(network, vertices, s, k);
-      TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
-      if (k == 0) continue;
-      TRY(scratch->inner_edge.push(last));
-      TRY(scratch->inner_edge.push(local));
-      TRY(add_edge(last, local, scratch));
-    }
-  }
-  scratch->isolated = static_cast<uint32_t>(network.point[patch].size());
-  for (uint32_t v : network.point[patch]) {
-    uint32_t local = k_none;
-    TRY(add_vertex(v, vertices, vertices.normal[v], scratch, &local));
-  }
-  sort(scratch->curve_edge.span(), before);
-  return {};
-}
-
-static bool find_edge(Span<const Chord> sorted, uint32_t a, uint32_t b) {
-  const Chord edge = {a, b, k_none};
-  const size_t i =
-      first_failing(size_t{0}, sorted.size(), [&](size_t k) { return before(sorted[k], edge); });
-  return i < sorted.size() && sorted[i].a == a && sorted[i].b == b;
-}
-
-static bool is_curve_edge(const PatchScratch& scratch, uint32_t a, uint32_t b) {
-  return find_edge(scratch.curve_edge.span(), a < b ? a : b, a < b ? b : a);
-}
-
-/* Notes the chords of triangle `t`, whose vertices among the patch's are `corner`, and its corners */
-/* if it has any. */
-static Status note_chords(const PatchScratch& scratch, const uint32_t* corner, uint32_t t,
-                          uint32_t patch, Builder* builder) {
-  bool any = false;
-  const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
-  for (int k = 0; k < 3; ++k) {
-    const uint32_t a = corner[k], b = corner[(k + 1) % 3];
-    if (a >= n || b >= n || is_curve_edge(scratch, a, b)) continue;
-    any = true;
-    /* Each edge inside is met once in each direction; the ascending one is noted. */
-    const uint32_t from = scratch.vertex[a], to = scratch.vertex[b];
-    if (from < to) TRY(builder->chord.push({from, to, patch}));
-  }
-  if (!any) return {};
-  const Span<const Vec3> place = scratch.place.span();
-  return builder->cornered.push({t, {place[corner[0]], place[corner[1]], place[corner[2]]}});
-}
-
 static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> triangle,
-                           uint32_t patch, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  const uint32_t n = static_cast<uint32_t>(scratch.vertex.size());
+                           uint32_t patch, SharedChords* chords) {
+  PatchMesh* mesh = chords->mesh;
+  const PatchDomain& domain = scratch.domain;
   const size_t first = mesh->patch.size(), more = triangle.size() / 3;
   TRY(make_room_in_parts(triangle.size(), &mesh->triangle));
   TRY(make_room_in_parts(more, &mesh->patch));
@@ -28406,13 +28639,14 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   for (size_t t = 0; t < more; ++t) {
     const uint32_t* corner = &triangle[3 * t];
     const auto global = [&](uint32_t v) {
-      return v < n ? scratch.vertex[v] : mesh->vertices + (v - n);
+      return v < domain.size() ? domain.vertex[v] : mesh->vertices + (v - domain.size());
     };
+    const Vec3 at[] = {scratch.place[corner[0]], scratch.place[corner[1]],
+                       scratch.place[corner[2]]};
     for (int k = 0; k < 3; ++k) mesh->triangle.push_reserved(global(corner[k]));
     mesh->patch.push_reserved(patch);
-    mesh->shape.push_reserved(mesh::triangle_shape(
-        scratch.place[corner[0]], scratch.place[corner[1]], scratch.place[corner[2]]));
-    TRY(note_chords(scratch, corner, static_cast<uint32_t>(first + t), patch, builder));
+    mesh->shape.push_reserved(mesh::triangle_shape(at[0], at[1], at[2]));
+    TRY(chords->note(domain, corner, at, patch, static_cast<uint32_t>(first + t)));
     if (t % k_triangles_per_checkpoint == k_triangles_per_checkpoint - 1)
       TRY(mesh->patch.context().checkpoint());
   }
@@ -28428,144 +28662,16 @@ static Status append_patch(const PatchScratch& scratch, Span<const uint32_t> tri
   return {};
 }
 
-/* Whether the triangles lie on the left of every edge of the loops: holes run clockwise, the outer */
-/* loop does not. */
-static bool on_the_left(const PatchScratch& scratch, Array<Chord>* directed) {
-  sort(directed->span(), before);
-  for (size_t h = 0; h < scratch.planar.triangles.size(); ++h) {
-    const uint32_t a = scratch.planar.triangles[h];
-    const uint32_t b = scratch.planar.triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
-    if (find_edge(directed->span(), b, a)) return false;
-  }
-  return true;
-}
-
-/* Loops that all are outer ones, beside each other, bound several discs in the plane and not the */
-/* patch. */
-static uint32_t outer_loops(const PatchScratch& scratch) {
-  const Border& border = scratch.border;
-  uint32_t count = 0;
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    const Vec2 base = scratch.flat[scratch.loop[border.start[l]]];
-    double area = 0.0;
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      const Vec2 a = scratch.flat[scratch.loop[i]] - base;
-      const Vec2 b = scratch.flat[scratch.loop[next_on_border(border, l, i)]] - base;
-      area += a.x * b.y - a.y * b.x;
-    }
-    count += area > 0.0;
-  }
-  return count;
-}
-
-static Status mesh_flat(double spacing, PatchScratch* scratch) {
-  Context& context = scratch->vertex.context();
-  const Border& border = scratch->border;
-  round_to_grid(scratch->flat.span(), &spacing);
-  if (border.loops() == 1 && border.size() == scratch->vertex.size()) {
-    return planar::mesh_polygon(context, scratch->flat.span(), spacing, &scratch->planar);
-  }
-  if (outer_loops(*scratch) > 1) {
-    return fail(Code::patch_without_plane, "the plane shows the loops beside each other");
-  }
-  Array<uint32_t> edges(context);
-  Array<Chord> directed(context);
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      const uint32_t a = scratch->loop[i], b = scratch->loop[next_on_border(border, l, i)];
-      TRY(edges.push(a));
-      TRY(edges.push(b));
-      TRY(directed.push({a, b, k_none}));
-    }
-  }
-  const planar::Region region = {scratch->flat.span(), edges.span(), scratch->inner_edge.span(),
-                                 false};
-  Status status = planar::mesh_region(context, region, spacing, &scratch->planar);
-  const bool outside = status.code == Code::bad_argument || status.code == Code::open_network;
-  if (outside) status = fail(Code::patch_folded, "a curve inside the patch leaves it");
-  status.place = {};  /* its vertices are ours */
-  TRY(status);
-  if (!on_the_left(*scratch, &directed)) {
-    return fail(Code::patch_without_plane, "a loop of the patch runs the wrong way round");
-  }
-  return {};
-}
-
-/* `least_facing` as in mesh_patches. */
-static Status mesh_in_plane(const Plane& plane, double spacing, double least_facing,
-                            PatchScratch* scratch) {
-  const size_t n = scratch->vertex.size();
-  TRY(scratch->flat.resize(n));
-  double facing = 0.0;
-  size_t known = 0;
-  for (size_t i = 0; i < n; ++i) scratch->flat[i] = plane.project(scratch->position[i]);
-  for (const Vec3& normal : scratch->border.normal) {
-    facing += dot(normal, plane.normal);
-    known += normal != Vec3{};
-  }
-  if (known > 0 && facing < least_facing * static_cast<double>(known)) {
-    return fail(Code::patch_without_plane, "the plane of the patch sees too much of it edge-on");
-  }
-  TRY(mesh_flat(spacing, scratch));
+/* What the mesh in the plane is to the others: corners there, starts in space. */
+static Status lift_patch(const Plane& plane, PatchScratch* scratch) {
   const Array<Vec2>& points = scratch->planar.points;
+  const size_t n = scratch->domain.size();
   TRY(scratch->place.resize(points.size()));
   TRY(scratch->inner.resize(points.size() - n));
   return in_parts(scratch->place.context(), points.size(), [&](size_t i) {
     scratch->place[i] = {points[i].x, points[i].y, 0.0};
     if (i >= n) scratch->inner[i - n] = plane.lift(points[i]);
   });
-}
-
-/* Lets the mesh in space pass through the curves and points inside the patch. */
-static Status inlay_patch(double spacing, PatchScratch* scratch) {
-  Context& context = scratch->vertex.context();
-  const Border& border = scratch->border;
-  const uint32_t rim = border.size(), n = static_cast<uint32_t>(scratch->vertex.size());
-  Array<Chord> lines(context);
-  Array<uint32_t> edges(context);
-  for (size_t e = 0; e < scratch->inner_edge.size(); e += 2) {
-    const uint32_t a = scratch->inner_edge[e], b = scratch->inner_edge[e + 1];
-    TRY(lines.push(a < b ? Chord{a, b, k_none} : Chord{b, a, k_none}));
-  }
-  sort(lines.span(), before);
-  for (const Chord& line : lines) {
-    TRY(edges.push(line.a));
-    TRY(edges.push(line.b));
-  }
-  const mesh::Inlay inlay = {scratch->position.span().part(rim, n - rim), edges.span()};
-  TRY(mesh::inlay_curves(context, border.start.span(), inlay, spacing, &scratch->spatial.position,
-                         &scratch->spatial.triangle));
-  if (has_needles(scratch->spatial)) {
-    return fail(Code::patch_folded, "curves inside the patch lie too near each other");
-  }
-  if (!scratch->spatial.raised || scratch->spatial.band) return {};
-  return raise_again(border, {n, edges.span()}, spacing, &scratch->spatial);
-}
-
-/* Names the curve of the local vertex that a failure speaks of. */
-static Status at_local_vertex(Status status, const CurveVertices& vertices,
-                              const PatchScratch& scratch) {
-  const uint32_t v = status.place.vertex;
-  status.place.vertex = k_none;
-  if (v < scratch.vertex.size()) status.place.curve = vertices.curve[scratch.vertex[v]];
-  return status;
-}
-
-static Status mesh_in_space(const CurveVertices& vertices, double spacing, PatchScratch* scratch) {
-  const Border& border = scratch->border;
-  const uint32_t n = static_cast<uint32_t>(scratch->vertex.size()), rim = border.size();
-  for (uint32_t i = 0; i < rim; ++i) {
-    if (scratch->loop[i] == i) continue;
-    return fail(Code::patch_folded,
-                "no plane shows the patch without folds, and its border passes a point twice");
-  }
-  TRY(mesh_border_in_space(border, spacing, &scratch->spatial));
-  /* A curve of a single edge from loop to loop brings no vertex. */
-  if (n != rim || !scratch->inner_edge.empty()) {
-    TRY(at_local_vertex(inlay_patch(spacing, scratch), vertices, *scratch));
-  }
-  TRY(scratch->place.copy(scratch->spatial.position.span()));
-  return scratch->inner.copy(scratch->place.span().part(n, scratch->place.size() - n));
 }
 
 #ifdef WIRESKIN_DEBUG
@@ -28600,10 +28706,10 @@ static Status check_areas(Context& context, Span<const uint32_t> triangle, const
 }
 
 static Status check_areas_in_space(const PatchScratch& scratch, Span<const uint32_t> triangle) {
-  const size_t n = scratch.position.size();
-  return check_areas(scratch.place.context(), triangle, [&](uint32_t v) {
-    return v < n ? scratch.position[v] : scratch.inner[v - n];
-  });
+  const PatchDomain& domain = scratch.domain;
+  const size_t n = domain.size();
+  return check_areas(scratch.place.context(), triangle,
+                     [&](uint32_t v) { return v < n ? domain.position[v] : scratch.inner[v - n]; });
 }
 
 /* Points in line within rounding have a triangle in the plane, where they are rounded again, and */
@@ -28620,112 +28726,33 @@ static bool may_be_meshed_otherwise(const Status& status) {
 }
 
 static Status mesh_patch(const Network& network, const CurveVertices& vertices, double least_facing,
-                         uint32_t patch, PatchScratch* scratch, Builder* builder) {
-  TRY(take_domain(network, vertices, patch, scratch));
-  const Border& border = scratch->border;
-  const double spacing = border_length(border) / static_cast<double>(border.size());
+                         uint32_t patch, PatchScratch* scratch, SharedChords* chords) {
+  PatchMesh* mesh = chords->mesh;
+  const PatchDomain& domain = scratch->domain;
+  TRY(scratch->domain.take(network, vertices, patch));
+  const double spacing = border_length(domain.border) / static_cast<double>(domain.border.size());
   Plane plane;
   scratch->spatial.raised = false;
-  Status status = fit_plane(border, &plane);
-  if (status.ok()) status = mesh_in_plane(plane, spacing, least_facing, scratch);
+  Status status = fit_plane(domain.border, &plane);
+  if (status.ok()) status = mesh_in_plane(domain, plane, spacing, least_facing, &scratch->planar);
+  if (status.ok()) status = lift_patch(plane, scratch);
   if (status.ok()) status = check_areas_of_flat(*scratch);
   if (status.ok()) {
     WIRESKIN_ASSERT(runs_counter_clockwise(scratch->planar));
-    TRY(builder->mesh->way.push(PatchWay::plane));
-    return append_patch(*scratch, scratch->planar.triangles.span(), patch, builder);
+    TRY(mesh->way.push(PatchWay::plane));
+    return append_patch(*scratch, scratch->planar.triangles.span(), patch, chords);
   }
   if (!may_be_meshed_otherwise(status)) return status;
-  TRY(check_border(border));
-  TRY(check_border_size(border, spacing));
-  TRY(mesh_in_space(vertices, spacing, scratch));
+  TRY(check_border(domain.border));
+  TRY(check_border_size(domain.border, spacing));
+  TRY(mesh_in_space(domain, vertices, spacing, &scratch->spatial));
+  const Span<const Vec3> place = scratch->spatial.position.span();
+  TRY(scratch->place.copy(place));
+  TRY(scratch->inner.copy(place.part(domain.size(), place.size() - domain.size())));
   TRY(check_areas_in_space(*scratch, scratch->spatial.triangle.span()));
-  TRY(builder->mesh->way.push(PatchWay::minimal_area));
-  if (scratch->spatial.coarse && builder->mesh->coarse_patches++ == 0) {
-    builder->mesh->first_coarse_patch = patch;
-  }
-  return append_patch(*scratch, scratch->spatial.triangle.span(), patch, builder);
-}
-
-static TriangleCorners* corners_of(uint32_t triangle, Builder* builder) {
-  const size_t i = last_holding(size_t{0}, builder->cornered.size(), [&](size_t k) {
-    return builder->cornered[k].triangle <= triangle;
-  });
-  WIRESKIN_ASSERT(builder->cornered[i].triangle == triangle);
-  return &builder->cornered[i];
-}
-
-static mesh::TriangleShape shape_of(const TriangleCorners& corners) {
-  return mesh::triangle_shape(corners.at[0], corners.at[1], corners.at[2]);
-}
-
-/* Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the */
-/* triangle keeps one half, a new triangle takes the other. */
-static Status split_triangle(uint32_t h, uint32_t m, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
-  TriangleCorners* old = corners_of(h / 3, builder);
-  const Vec3 middle = 0.5 * (old->at[h % 3] + old->at[next % 3]);
-  const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
-  const TriangleCorners fresh = {static_cast<uint32_t>(mesh->patch.size()),
-                                 {middle, old->at[next % 3], old->at[previous % 3]}};
-  mesh->triangle[next] = m;
-  old->at[next % 3] = middle;
-  mesh->shape[h / 3] = shape_of(*old);
-  for (uint32_t v : vertex) TRY(mesh->triangle.push(v));
-  TRY(mesh->shape.push(shape_of(fresh)));
-  TRY(mesh->patch.push(mesh->patch[h / 3]));
-  return builder->cornered.push(fresh);
-}
-
-/* Splits the triangles [first, end) of the chord's patch that have the chord. */
-static Status split_triangles(const Chord& chord, uint32_t first, uint32_t end, uint32_t middle,
-                              Builder* builder) {
-  const PatchMesh& mesh = *builder->mesh;
-  for (uint32_t h = 3 * first; h < 3 * end; ++h) {
-    const uint32_t a = mesh.triangle[h], b = mesh.triangle[mesh::next_half_edge(h)];
-    const bool here = (a == chord.a && b == chord.b) || (a == chord.b && b == chord.a);
-    if (here && mesh.patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, builder));
-  }
-  return {};
-}
-
-/* A patch's triangles are those it began with and some of those that came from earlier splits. */
-static Status split_chord(const Chord& chord, Builder* builder) {
-  PatchMesh* mesh = builder->mesh;
-  if (mesh->triangle.size() > 0x7fffffff) {
-    return fail(Code::too_large, "the spacing is too small for the network");
-  }
-  const uint32_t middle = mesh->vertices++;
-  TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
-  TRY(mesh->placed.push(builder->raised[chord.patch]));
-  const uint32_t* own = &builder->patch_start[chord.patch];
-  const uint32_t first_split = builder->patch_start.back();
-  const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
-  TRY(split_triangles(chord, own[0], own[1], middle, builder));
-  TRY(split_triangles(chord, first_split, triangles, middle, builder));
-  return mesh->triangle.context().checkpoint();
-}
-
-/* Splits every chord that stands in two patches or beside a curve's edge. */
-static Status split_shared_chords(const Network& network, const CurveVertices& vertices,
-                                  Builder* builder) {
-  for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
-      const uint32_t a = segment_vertex(network, vertices, s, k);
-      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
-      TRY(builder->chord.push({a < b ? a : b, a < b ? b : a, k_none}));
-    }
-  }
-  sort(builder->chord.span(), before);
-  const Span<const Chord> chords = builder->chord.span();
-  for (size_t i = 0; i < chords.size(); ++i) {
-    const auto same = [&](size_t k) {
-      return k < chords.size() && chords[k].a == chords[i].a && chords[k].b == chords[i].b;
-    };
-    const bool shared = same(i + 1) || (i > 0 && same(i - 1));
-    if (shared && chords[i].patch != k_none) TRY(split_chord(chords[i], builder));
-  }
-  return {};
+  TRY(mesh->way.push(PatchWay::minimal_area));
+  if (scratch->spatial.coarse && mesh->coarse_patches++ == 0) mesh->first_coarse_patch = patch;
+  return append_patch(*scratch, scratch->spatial.triangle.span(), patch, chords);
 }
 
 /* Why the patch is not to be made, its number included. */
@@ -28744,33 +28771,33 @@ static Status fault_of_patch(const Network& network, uint32_t patch, Span<const 
 Status mesh_patches(const Network& network, const CurveVertices& vertices, double least_facing,
                     bool partial, PatchMesh* mesh, Span<const Status> faults) {
   Context& context = mesh->triangle.context();
-  Builder builder(context, mesh);
+  SharedChords chords(context, mesh);
   PatchScratch scratch(context);
-  TRY(scratch.local.assign(vertices.position.size(), k_none));
+  TRY(scratch.domain.start(vertices));
   mesh->curve_vertices = mesh->vertices = static_cast<uint32_t>(vertices.position.size());
   TRY(mesh->start.copy(vertices.position.span()));
   TRY(mesh->placed.assign(mesh->vertices, 0));
   for (uint32_t p = 0; p < network.patches(); ++p) {
-    TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+    TRY(chords.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
     Status status = fault_of_patch(network, p, faults);
     const bool known = !status.ok();
     scratch.spatial.raised = false;
-    if (!known) status = mesh_patch(network, vertices, least_facing, p, &scratch, &builder);
+    if (!known) status = mesh_patch(network, vertices, least_facing, p, &scratch, &chords);
     if (!known) status = at_patch(status, network, p);
     TRY(mesh->status.push(status));
-    TRY(builder.raised.push(scratch.spatial.raised));
+    TRY(chords.raised.push(scratch.spatial.raised));
     if (!status.ok() && !(partial && (known || may_be_left_out(status)))) return status;
     if (!status.ok()) TRY(mesh->way.push(PatchWay::plane));
     TRY(context.progress(static_cast<double>(p + 1) / static_cast<double>(network.patches())));
   }
-  TRY(builder.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
+  TRY(chords.patch_start.push(static_cast<uint32_t>(mesh->patch.size())));
   if (mesh->vertices >= k_most_vertices) {
     return fail(
         Code::too_large,
         "the spacing is too small for the network: its surface has more than 2^26 vertices");
   }
   if (mesh->patch.empty() && !mesh->status.empty()) return mesh->status[0];
-  return split_shared_chords(network, vertices, &builder);
+  return chords.split(network, vertices);
 }
 
 }  /* namespace wireskin::network */
@@ -31358,6 +31385,79 @@ Status KeptParts::split(const KeptSamples& samples) {
 }  /* namespace wireskin::network */
 /* ======== end src/network/kept_parts.cpp ======== */
 
+/* ======== begin src/network/patch_domain.cpp ======== */
+namespace wireskin::network {
+
+static bool edge_before(const DomainEdge& x, const DomainEdge& y) {
+  return x.a != y.a ? x.a < y.a : x.b < y.b;
+}
+
+void sort_edges(Span<DomainEdge> edges) {
+  sort(edges, edge_before);
+}
+
+bool has_edge(Span<const DomainEdge> sorted, const DomainEdge& edge) {
+  const size_t i = first_failing(size_t{0}, sorted.size(),
+                                 [&](size_t k) { return edge_before(sorted[k], edge); });
+  return i < sorted.size() && sorted[i].a == edge.a && sorted[i].b == edge.b;
+}
+
+static DomainEdge edge_of(uint32_t p, uint32_t q) {
+  return p < q ? DomainEdge{p, q} : DomainEdge{q, p};
+}
+
+bool PatchDomain::is_curve_edge(uint32_t p, uint32_t q) const {
+  return has_edge(curve_edge.span(), edge_of(p, q));
+}
+
+static Status add_vertex(uint32_t v, const CurveVertices& vertices, PatchDomain* domain,
+                         uint32_t* local) {
+  if (domain->local[v] == k_none) {
+    domain->local[v] = domain->size();
+    TRY(domain->vertex.push(v));
+    TRY(domain->position.push(vertices.position[v]));
+  }
+  *local = domain->local[v];
+  return {};
+}
+
+Status PatchDomain::take(const Network& network, const CurveVertices& vertices, uint32_t patch) {
+  TRY(border_of_patch(network, vertices, patch, &border));
+  for (uint32_t v : vertex) local[v] = k_none;
+  vertex.clear();
+  position.clear();
+  inner_edge.clear();
+  curve_edge.clear();
+  TRY(loop.resize(border.size()));
+  for (uint32_t i = 0; i < border.size(); ++i) {
+    TRY(add_vertex(border.vertex[i], vertices, this, &loop[i]));
+  }
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      TRY(curve_edge.push(edge_of(loop[i], loop[next_on_border(border, l, i)])));
+    }
+  }
+  for (uint32_t s : network.inner[patch]) {
+    uint32_t last = k_none, at = k_none;
+    for (uint32_t k = 0; k <= vertices.edges[s]; ++k, last = at) {
+      TRY(add_vertex(segment_vertex(network, vertices, s, k), vertices, this, &at));
+      if (k == 0) continue;
+      TRY(inner_edge.push(last));
+      TRY(inner_edge.push(at));
+      TRY(curve_edge.push(edge_of(last, at)));
+    }
+  }
+  for (uint32_t v : network.point[patch]) {
+    uint32_t at = k_none;
+    TRY(add_vertex(v, vertices, this, &at));
+  }
+  sort_edges(curve_edge.span());
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_domain.cpp ======== */
+
 /* ======== begin src/network/patch_in_space.cpp ======== */
 namespace wireskin::network {
 
@@ -31368,7 +31468,8 @@ static constexpr double k_least_closing = 0.3;
 /* length. */
 static constexpr double k_coarser = 4.0, k_edges_of_coarse_border = 60.0;
 
-bool has_needles(const SpaceMesh& mesh) {
+/* Whether some triangle is so thin that the systems to come would be singular. */
+static bool has_needles(const SpaceMesh& mesh) {
   constexpr double k_needle = 1e-5;
   const Span<const Vec3> position = mesh.position.span();
   for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
@@ -31467,8 +31568,9 @@ Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mes
   return take_loop_mesh(border, spacing, mesh);
 }
 
-Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
-                   SpaceMesh* mesh) {
+/* Raises a dome again and refines it where that stretched it, with more held than the border. */
+static Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
+                          SpaceMesh* mesh) {
   constexpr int k_rounds = 2;
   SpaceMesh raised(mesh->position.context());
   TRY(raised.position.copy(mesh->position.span()));
@@ -31480,6 +31582,56 @@ Status raise_again(const Border& border, const mesh::HeldCurves& held, double sp
   mesh->position = static_cast<Array<Vec3>&&>(raised.position);
   mesh->triangle = static_cast<Array<uint32_t>&&>(raised.triangle);
   return {};
+}
+
+/* Lets the mesh in space pass through the curves and points inside the patch. */
+static Status inlay(const PatchDomain& domain, double spacing, SpaceMesh* mesh) {
+  Context& context = domain.vertex.context();
+  const Border& border = domain.border;
+  const uint32_t rim = border.size(), n = domain.size();
+  Array<DomainEdge> lines(context);
+  Array<uint32_t> edges(context);
+  for (size_t e = 0; e < domain.inner_edge.size(); e += 2) {
+    const uint32_t a = domain.inner_edge[e], b = domain.inner_edge[e + 1];
+    TRY(lines.push(a < b ? DomainEdge{a, b} : DomainEdge{b, a}));
+  }
+  sort_edges(lines.span());
+  for (const DomainEdge& line : lines) {
+    TRY(edges.push(line.a));
+    TRY(edges.push(line.b));
+  }
+  const mesh::Inlay curves = {domain.position.span().part(rim, n - rim), edges.span()};
+  TRY(mesh::inlay_curves(context, border.start.span(), curves, spacing, &mesh->position,
+                         &mesh->triangle));
+  if (has_needles(*mesh)) {
+    return fail(Code::patch_folded, "curves inside the patch lie too near each other");
+  }
+  if (!mesh->raised || mesh->band) return {};
+  return raise_again(border, {n, edges.span()}, spacing, mesh);
+}
+
+/* Names the curve of the local vertex that a failure speaks of. */
+static Status at_local_vertex(Status status, const CurveVertices& vertices,
+                              const PatchDomain& domain) {
+  const uint32_t v = status.place.vertex;
+  status.place.vertex = k_none;
+  if (v < domain.vertex.size()) status.place.curve = vertices.curve[domain.vertex[v]];
+  return status;
+}
+
+Status mesh_in_space(const PatchDomain& domain, const CurveVertices& vertices, double spacing,
+                     SpaceMesh* mesh) {
+  const Border& border = domain.border;
+  const uint32_t rim = border.size();
+  for (uint32_t i = 0; i < rim; ++i) {
+    if (domain.loop[i] == i) continue;
+    return fail(Code::patch_folded,
+                "no plane shows the patch without folds, and its border passes a point twice");
+  }
+  TRY(mesh_border_in_space(border, spacing, mesh));
+  /* A curve of a single edge from loop to loop brings no vertex. */
+  if (domain.size() == rim && domain.inner_edge.empty()) return {};
+  return at_local_vertex(inlay(domain, spacing, mesh), vertices, domain);
 }
 
 }  /* namespace wireskin::network */
@@ -32221,178 +32373,6 @@ Status drop_patches(Span<const Status> status, Array<Node>* nodes, Network* netw
 }  /* namespace wireskin::network */
 /* ======== end src/network/partial.cpp ======== */
 
-/* ======== begin src/network/size_limit.cpp ======== */
-namespace wireskin::network {
-
-static constexpr const char* k_too_many =
-    "the spacing is too small for the network: its surface would have more than 2^26 vertices";
-
-/* Vertices in a square of the size of an edge. */
-static constexpr double k_density = 0.8 * 1.1547;
-
-static double length_of_segment(const curves::Curves& curves, const Segment& segment) {
-  const curves::Curve curve = curves[segment.curve];
-  return curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
-}
-
-static double edges_of_segment(const curves::Curves& curves, const Segment& segment,
-                               double spacing) {
-  const double edges = length_of_segment(curves, segment) / spacing;
-  return edges > 1.0 ? edges : 1.0;
-}
-
-/* Vertices on curves alone. */
-static Status check_curves(const curves::Curves& curves, const Network& network, double spacing) {
-  double sum = 0.0, most = 0.0;
-  Place place;
-  for (const Segment& segment : network.segment) {
-    const double edges = edges_of_segment(curves, segment, spacing);
-    sum += edges;
-    if (!(edges > most)) continue;
-    most = edges;
-    place.curve = segment.curve;
-  }
-  if (!(sum < k_most_vertices)) return fail(Code::too_large, k_too_many, place);
-  if (most < k_most_edges_of_segment) return {};
-  return fail(Code::too_large,
-              "the spacing is too small for the network: a curve would have more than 2^20 edges "
-              "between two nodes",
-              place);
-}
-
-/* The component of each segment: segments that share a node are of one. */
-static Status find_components(const Network& network, DisjointSets* sets) {
-  Array<uint32_t> at_node(network.segment.context());
-  uint32_t nodes = 0;
-  for (const Segment& s : network.segment) {
-    if (s.from == k_none) continue;
-    nodes = nodes > s.from ? nodes : s.from + 1;
-    nodes = nodes > s.to ? nodes : s.to + 1;
-  }
-  TRY(at_node.assign(nodes, k_none));
-  TRY(sets->reset(static_cast<uint32_t>(network.segment.size())));
-  for (uint32_t s = 0; s < network.segment.size(); ++s) {
-    if (network.segment[s].from == k_none) continue;
-    const uint32_t ends[] = {network.segment[s].from, network.segment[s].to};
-    for (const uint32_t node : ends) {
-      if (at_node[node] == k_none) at_node[node] = s;
-      sets->unite(at_node[node], s);
-    }
-  }
-  return {};
-}
-
-/* The vertices that a cycle needs. */
-static double vertices_of_patch(const curves::Curves& curves, const Network& network,
-                                uint32_t patch, double spacing) {
-  const Segment& first = network.segment[network.cycle(patch)[0] / 2];
-  const Vec3 base = curves[first.curve].position.value[first.first_knot];
-  Vec3 area;
-  double border = 0.0, edges = 0.0;
-  for (const uint32_t h : network.cycle(patch)) {
-    const Segment& segment = network.segment[h / 2];
-    const Span<const Vec3> value = curves[segment.curve].position.value;
-    const double sign = h % 2 == 0 ? 0.5 : -0.5;
-    for (uint32_t k = segment.first_knot; k < segment.last_knot; ++k) {
-      area += sign * cross(value[k] - base, value[k + 1] - base);
-    }
-    border += length_of_segment(curves, segment);
-    edges += edges_of_segment(curves, segment, spacing);
-  }
-  const double own = border / edges;
-  return k_density * length(area) / (own * own);
-}
-
-Status check_vertex_count(const curves::Curves& curves, const Network& network, double spacing) {
-  Context& context = network.segment.context();
-  TRY(check_curves(curves, network, spacing));
-  DisjointSets sets(context);
-  Array<double> needed(context), of_component(context);
-  TRY(find_components(network, &sets));
-  TRY(needed.assign(network.patches(), 0.0));
-  TRY(of_component.assign(network.segment.size(), 0.0));
-  const auto component_of = [&](uint32_t p) { return sets.find(network.cycle(p)[0] / 2); };
-  double all = 0.0;
-  for (uint32_t p = 0; p < network.patches(); ++p) {
-    needed[p] = vertices_of_patch(curves, network, p, spacing);
-    of_component[component_of(p)] += needed[p];
-    all += needed[p];
-  }
-  uint32_t worst = k_none;
-  for (uint32_t p = 0; p < network.patches(); ++p) {
-    const double here = of_component[component_of(p)];
-    if (!(here - (all - here) >= k_most_vertices)) continue;
-    if (worst == k_none || needed[p] > needed[worst]) worst = p;
-  }
-  if (worst == k_none) return {};
-  Place place;
-  place.patch = worst;
-  place.curve = network.segment[network.cycle(worst)[0] / 2].curve;
-  return fail(Code::too_large, k_too_many, place);
-}
-
-/* Twice the vector area of one loop. */
-static Vec3 area_of_loop(const Border& border, uint32_t loop) {
-  Vec3 area;
-  const Vec3& base = border.position[border.start[loop]];
-  for (uint32_t i = border.start[loop] + 1; i + 1 < border.start[loop + 1]; ++i) {
-    area += cross(border.position[i] - base, border.position[i + 1] - base);
-  }
-  return area;
-}
-
-/* How far a loop is from the others, seen at some thousand vertices of each; what lies between */
-/* these is taken off. */
-static double clearance(const Border& border, uint32_t loop) {
-  constexpr uint32_t k_looks = 2048;
-  double least = HUGE_VAL, between = 0.0;
-  const auto stride_of = [&](uint32_t l) {
-    return 1 + (border.start[l + 1] - border.start[l]) / k_looks;
-  };
-  const auto widest = [&](uint32_t l) {
-    double most = 0.0;
-    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
-      const uint32_t next = i + 1 < border.start[l + 1] ? i + 1 : border.start[l];
-      const double edge = length(border.position[next] - border.position[i]);
-      most = edge > most ? edge : most;
-    }
-    return most * stride_of(l);
-  };
-  const uint32_t step = stride_of(loop);
-  for (uint32_t l = 0; l < border.loops(); ++l) {
-    if (l == loop) continue;
-    between = widest(l) > between ? widest(l) : between;
-    for (uint32_t i = border.start[loop]; i < border.start[loop + 1]; i += step) {
-      for (uint32_t k = border.start[l]; k < border.start[l + 1]; k += stride_of(l)) {
-        const double away = length(border.position[i] - border.position[k]);
-        least = away < least ? away : least;
-      }
-    }
-  }
-  return least - 0.5 * (between + widest(loop));
-}
-
-Status check_border_size(const Border& border, double spacing) {
-  const Status too_many = fail(Code::too_large, k_too_many);
-  if (border.size() >= k_longest_border_in_space) {
-    return fail(Code::too_large,
-                "the spacing is too small for the network: a patch that no plane shows would have "
-                "more than 2^16 vertices on its border");
-  }
-  const double most = k_most_vertices / k_density * spacing * spacing;  /* area */
-  if (0.5 * length(vector_area(border)) > most) return too_many;
-  for (uint32_t l = 0; l < border.loops() && border.loops() > 1; ++l) {
-    const double own = 0.5 * length(area_of_loop(border, l));
-    if (!(0.5 * own > most)) continue;
-    const double away = clearance(border, l);
-    if (away > 0.0 && away * std::sqrt(2.0 * k_pi * own) > most) return too_many;
-  }
-  return {};
-}
-
-}  /* namespace wireskin::network */
-/* ======== end src/network/size_limit.cpp ======== */
-
 /* ======== begin src/planar/polygon_mesh.cpp ======== */
 namespace wireskin::planar {
 
@@ -32587,6 +32567,377 @@ Status mesh_polygon(Context& context, Span<const Vec2> border, double spacing, P
 }  /* namespace wireskin::planar */
 /* ======== end src/planar/polygon_mesh.cpp ======== */
 
+/* ======== begin src/network/patch_in_plane.cpp ======== */
+namespace wireskin::network {
+
+/* Whether the triangles lie on the left of every edge of the loops: holes run clockwise, the outer */
+/* loop does not. */
+static bool on_the_left(const planar::PolygonMesh& mesh, Span<DomainEdge> directed) {
+  sort_edges(directed);
+  for (size_t h = 0; h < mesh.triangles.size(); ++h) {
+    const uint32_t a = mesh.triangles[h];
+    const uint32_t b = mesh.triangles[mesh::next_half_edge(static_cast<uint32_t>(h))];
+    if (has_edge(directed, {b, a})) return false;
+  }
+  return true;
+}
+
+/* Loops that all are outer ones, beside each other, bound several discs in the plane and not the */
+/* patch. */
+static uint32_t outer_loops(const PatchDomain& domain, Span<const Vec2> flat) {
+  const Border& border = domain.border;
+  uint32_t count = 0;
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    const Vec2 base = flat[domain.loop[border.start[l]]];
+    double area = 0.0;
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const Vec2 a = flat[domain.loop[i]] - base;
+      const Vec2 b = flat[domain.loop[next_on_border(border, l, i)]] - base;
+      area += a.x * b.y - a.y * b.x;
+    }
+    count += area > 0.0;
+  }
+  return count;
+}
+
+static Status mesh_flat(const PatchDomain& domain, Span<Vec2> flat, double spacing,
+                        planar::PolygonMesh* mesh) {
+  Context& context = domain.vertex.context();
+  const Border& border = domain.border;
+  round_to_grid(flat, &spacing);
+  if (border.loops() == 1 && border.size() == domain.size()) {
+    return planar::mesh_polygon(context, flat, spacing, mesh);
+  }
+  if (outer_loops(domain, flat) > 1) {
+    return fail(Code::patch_without_plane, "the plane shows the loops beside each other");
+  }
+  Array<uint32_t> edges(context);
+  Array<DomainEdge> directed(context);
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const uint32_t a = domain.loop[i], b = domain.loop[next_on_border(border, l, i)];
+      TRY(edges.push(a));
+      TRY(edges.push(b));
+      TRY(directed.push({a, b}));
+    }
+  }
+  const planar::Region region = {flat, edges.span(), domain.inner_edge.span(), false};
+  Status status = planar::mesh_region(context, region, spacing, mesh);
+  const bool outside = status.code == Code::bad_argument || status.code == Code::open_network;
+  if (outside) status = fail(Code::patch_folded, "a curve inside the patch leaves it");
+  status.place = {};  /* its vertices are ours */
+  TRY(status);
+  if (!on_the_left(*mesh, directed.span())) {
+    return fail(Code::patch_without_plane, "a loop of the patch runs the wrong way round");
+  }
+  return {};
+}
+
+Status mesh_in_plane(const PatchDomain& domain, const Plane& plane, double spacing,
+                     double least_facing, planar::PolygonMesh* mesh) {
+  Array<Vec2> flat(domain.vertex.context());
+  double facing = 0.0;
+  size_t known = 0;
+  for (const Vec3& normal : domain.border.normal) {
+    facing += dot(normal, plane.normal);
+    known += normal != Vec3{};
+  }
+  if (known > 0 && facing < least_facing * static_cast<double>(known)) {
+    return fail(Code::patch_without_plane, "the plane of the patch sees too much of it edge-on");
+  }
+  TRY(flat.resize(domain.size()));
+  for (size_t i = 0; i < flat.size(); ++i) flat[i] = plane.project(domain.position[i]);
+  return mesh_flat(domain, flat.span(), spacing, mesh);
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/patch_in_plane.cpp ======== */
+
+/* ======== begin src/network/shared_chords.cpp ======== */
+namespace wireskin::network {
+
+static bool before(const Chord& x, const Chord& y) {
+  if (x.a != y.a) return x.a < y.a;
+  return x.b != y.b ? x.b < y.b : x.patch < y.patch;
+}
+
+Status SharedChords::note(const PatchDomain& domain, const uint32_t* corner, const Vec3* at,
+                          uint32_t patch, uint32_t t) {
+  bool any = false;
+  const uint32_t n = domain.size();
+  for (int k = 0; k < 3; ++k) {
+    const uint32_t a = corner[k], b = corner[(k + 1) % 3];
+    if (a >= n || b >= n || domain.is_curve_edge(a, b)) continue;
+    any = true;
+    /* Each edge inside is met once in each direction; the ascending one is noted. */
+    const uint32_t from = domain.vertex[a], to = domain.vertex[b];
+    if (from < to) TRY(chord.push({from, to, patch}));
+  }
+  if (!any) return {};
+  return cornered.push({t, {at[0], at[1], at[2]}});
+}
+
+static TriangleCorners* corners_of(uint32_t triangle, SharedChords* chords) {
+  const size_t i = last_holding(size_t{0}, chords->cornered.size(),
+                                [&](size_t k) { return chords->cornered[k].triangle <= triangle; });
+  WIRESKIN_ASSERT(chords->cornered[i].triangle == triangle);
+  return &chords->cornered[i];
+}
+
+static mesh::TriangleShape shape_of(const TriangleCorners& corners) {
+  return mesh::triangle_shape(corners.at[0], corners.at[1], corners.at[2]);
+}
+
+/* Splits triangle t's edge from corner k to the next one at its midpoint, the new vertex m: the */
+/* triangle keeps one half, a new triangle takes the other. */
+static Status split_triangle(uint32_t h, uint32_t m, SharedChords* chords) {
+  PatchMesh* mesh = chords->mesh;
+  const uint32_t next = mesh::next_half_edge(h), previous = mesh::previous_half_edge(h);
+  TriangleCorners* old = corners_of(h / 3, chords);
+  const Vec3 middle = 0.5 * (old->at[h % 3] + old->at[next % 3]);
+  const uint32_t vertex[3] = {m, mesh->triangle[next], mesh->triangle[previous]};
+  const TriangleCorners fresh = {static_cast<uint32_t>(mesh->patch.size()),
+                                 {middle, old->at[next % 3], old->at[previous % 3]}};
+  mesh->triangle[next] = m;
+  old->at[next % 3] = middle;
+  mesh->shape[h / 3] = shape_of(*old);
+  for (uint32_t v : vertex) TRY(mesh->triangle.push(v));
+  TRY(mesh->shape.push(shape_of(fresh)));
+  TRY(mesh->patch.push(mesh->patch[h / 3]));
+  return chords->cornered.push(fresh);
+}
+
+/* Splits the triangles [first, end) of the chord's patch that have the chord. */
+static Status split_triangles(const Chord& chord, uint32_t first, uint32_t end, uint32_t middle,
+                              SharedChords* chords) {
+  const PatchMesh& mesh = *chords->mesh;
+  for (uint32_t h = 3 * first; h < 3 * end; ++h) {
+    const uint32_t a = mesh.triangle[h], b = mesh.triangle[mesh::next_half_edge(h)];
+    const bool here = (a == chord.a && b == chord.b) || (a == chord.b && b == chord.a);
+    if (here && mesh.patch[h / 3] == chord.patch) TRY(split_triangle(h, middle, chords));
+  }
+  return {};
+}
+
+/* A patch's triangles are those it began with and some of those that came from earlier splits. */
+static Status split_chord(const Chord& chord, SharedChords* chords) {
+  PatchMesh* mesh = chords->mesh;
+  if (mesh->triangle.size() > 0x7fffffff) {
+    return fail(Code::too_large, "the spacing is too small for the network");
+  }
+  const uint32_t middle = mesh->vertices++;
+  TRY(mesh->start.push(0.5 * (mesh->start[chord.a] + mesh->start[chord.b])));
+  TRY(mesh->placed.push(chords->raised[chord.patch]));
+  const uint32_t* own = &chords->patch_start[chord.patch];
+  const uint32_t first_split = chords->patch_start.back();
+  const uint32_t triangles = static_cast<uint32_t>(mesh->patch.size());
+  TRY(split_triangles(chord, own[0], own[1], middle, chords));
+  TRY(split_triangles(chord, first_split, triangles, middle, chords));
+  return mesh->triangle.context().checkpoint();
+}
+
+/* Every edge of the curves, as a chord of no patch. */
+static Status note_curves(const Network& network, const CurveVertices& vertices,
+                          Array<Chord>* chords) {
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    for (uint32_t k = 0; k < vertices.edges[s]; ++k) {
+      const uint32_t a = segment_vertex(network, vertices, s, k);
+      const uint32_t b = segment_vertex(network, vertices, s, k + 1);
+      TRY(chords->push({a < b ? a : b, a < b ? b : a, k_none}));
+    }
+  }
+  return {};
+}
+
+Status SharedChords::split(const Network& network, const CurveVertices& vertices) {
+  TRY(note_curves(network, vertices, &chord));
+  sort(chord.span(), before);
+  const Span<const Chord> chords = chord.span();
+  for (size_t i = 0; i < chords.size(); ++i) {
+    const auto same = [&](size_t k) {
+      return k < chords.size() && chords[k].a == chords[i].a && chords[k].b == chords[i].b;
+    };
+    const bool shared = same(i + 1) || (i > 0 && same(i - 1));
+    if (shared && chords[i].patch != k_none) TRY(split_chord(chords[i], this));
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/shared_chords.cpp ======== */
+
+/* ======== begin src/network/size_limit.cpp ======== */
+namespace wireskin::network {
+
+static constexpr const char* k_too_many =
+    "the spacing is too small for the network: its surface would have more than 2^26 vertices";
+
+/* Vertices in a square of the size of an edge. */
+static constexpr double k_density = 0.8 * 1.1547;
+
+static double length_of_segment(const curves::Curves& curves, const Segment& segment) {
+  const curves::Curve curve = curves[segment.curve];
+  return curve.arc[segment.last_knot] - curve.arc[segment.first_knot];
+}
+
+static double edges_of_segment(const curves::Curves& curves, const Segment& segment,
+                               double spacing) {
+  const double edges = length_of_segment(curves, segment) / spacing;
+  return edges > 1.0 ? edges : 1.0;
+}
+
+/* Vertices on curves alone. */
+static Status check_curves(const curves::Curves& curves, const Network& network, double spacing) {
+  double sum = 0.0, most = 0.0;
+  Place place;
+  for (const Segment& segment : network.segment) {
+    const double edges = edges_of_segment(curves, segment, spacing);
+    sum += edges;
+    if (!(edges > most)) continue;
+    most = edges;
+    place.curve = segment.curve;
+  }
+  if (!(sum < k_most_vertices)) return fail(Code::too_large, k_too_many, place);
+  if (most < k_most_edges_of_segment) return {};
+  return fail(Code::too_large,
+              "the spacing is too small for the network: a curve would have more than 2^20 edges "
+              "between two nodes",
+              place);
+}
+
+/* The component of each segment: segments that share a node are of one. */
+static Status find_components(const Network& network, DisjointSets* sets) {
+  Array<uint32_t> at_node(network.segment.context());
+  uint32_t nodes = 0;
+  for (const Segment& s : network.segment) {
+    if (s.from == k_none) continue;
+    nodes = nodes > s.from ? nodes : s.from + 1;
+    nodes = nodes > s.to ? nodes : s.to + 1;
+  }
+  TRY(at_node.assign(nodes, k_none));
+  TRY(sets->reset(static_cast<uint32_t>(network.segment.size())));
+  for (uint32_t s = 0; s < network.segment.size(); ++s) {
+    if (network.segment[s].from == k_none) continue;
+    const uint32_t ends[] = {network.segment[s].from, network.segment[s].to};
+    for (const uint32_t node : ends) {
+      if (at_node[node] == k_none) at_node[node] = s;
+      sets->unite(at_node[node], s);
+    }
+  }
+  return {};
+}
+
+/* The vertices that a cycle needs. */
+static double vertices_of_patch(const curves::Curves& curves, const Network& network,
+                                uint32_t patch, double spacing) {
+  const Segment& first = network.segment[network.cycle(patch)[0] / 2];
+  const Vec3 base = curves[first.curve].position.value[first.first_knot];
+  Vec3 area;
+  double border = 0.0, edges = 0.0;
+  for (const uint32_t h : network.cycle(patch)) {
+    const Segment& segment = network.segment[h / 2];
+    const Span<const Vec3> value = curves[segment.curve].position.value;
+    const double sign = h % 2 == 0 ? 0.5 : -0.5;
+    for (uint32_t k = segment.first_knot; k < segment.last_knot; ++k) {
+      area += sign * cross(value[k] - base, value[k + 1] - base);
+    }
+    border += length_of_segment(curves, segment);
+    edges += edges_of_segment(curves, segment, spacing);
+  }
+  const double own = border / edges;
+  return k_density * length(area) / (own * own);
+}
+
+Status check_vertex_count(const curves::Curves& curves, const Network& network, double spacing) {
+  Context& context = network.segment.context();
+  TRY(check_curves(curves, network, spacing));
+  DisjointSets sets(context);
+  Array<double> needed(context), of_component(context);
+  TRY(find_components(network, &sets));
+  TRY(needed.assign(network.patches(), 0.0));
+  TRY(of_component.assign(network.segment.size(), 0.0));
+  const auto component_of = [&](uint32_t p) { return sets.find(network.cycle(p)[0] / 2); };
+  double all = 0.0;
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    needed[p] = vertices_of_patch(curves, network, p, spacing);
+    of_component[component_of(p)] += needed[p];
+    all += needed[p];
+  }
+  uint32_t worst = k_none;
+  for (uint32_t p = 0; p < network.patches(); ++p) {
+    const double here = of_component[component_of(p)];
+    if (!(here - (all - here) >= k_most_vertices)) continue;
+    if (worst == k_none || needed[p] > needed[worst]) worst = p;
+  }
+  if (worst == k_none) return {};
+  Place place;
+  place.patch = worst;
+  place.curve = network.segment[network.cycle(worst)[0] / 2].curve;
+  return fail(Code::too_large, k_too_many, place);
+}
+
+/* Twice the vector area of one loop. */
+static Vec3 area_of_loop(const Border& border, uint32_t loop) {
+  Vec3 area;
+  const Vec3& base = border.position[border.start[loop]];
+  for (uint32_t i = border.start[loop] + 1; i + 1 < border.start[loop + 1]; ++i) {
+    area += cross(border.position[i] - base, border.position[i + 1] - base);
+  }
+  return area;
+}
+
+/* How far a loop is from the others, seen at some thousand vertices of each; what lies between */
+/* these is taken off. */
+static double clearance(const Border& border, uint32_t loop) {
+  constexpr uint32_t k_looks = 2048;
+  double least = HUGE_VAL, between = 0.0;
+  const auto stride_of = [&](uint32_t l) {
+    return 1 + (border.start[l + 1] - border.start[l]) / k_looks;
+  };
+  const auto widest = [&](uint32_t l) {
+    double most = 0.0;
+    for (uint32_t i = border.start[l]; i < border.start[l + 1]; ++i) {
+      const uint32_t next = i + 1 < border.start[l + 1] ? i + 1 : border.start[l];
+      const double edge = length(border.position[next] - border.position[i]);
+      most = edge > most ? edge : most;
+    }
+    return most * stride_of(l);
+  };
+  const uint32_t step = stride_of(loop);
+  for (uint32_t l = 0; l < border.loops(); ++l) {
+    if (l == loop) continue;
+    between = widest(l) > between ? widest(l) : between;
+    for (uint32_t i = border.start[loop]; i < border.start[loop + 1]; i += step) {
+      for (uint32_t k = border.start[l]; k < border.start[l + 1]; k += stride_of(l)) {
+        const double away = length(border.position[i] - border.position[k]);
+        least = away < least ? away : least;
+      }
+    }
+  }
+  return least - 0.5 * (between + widest(loop));
+}
+
+Status check_border_size(const Border& border, double spacing) {
+  const Status too_many = fail(Code::too_large, k_too_many);
+  if (border.size() >= k_longest_border_in_space) {
+    return fail(Code::too_large,
+                "the spacing is too small for the network: a patch that no plane shows would have "
+                "more than 2^16 vertices on its border");
+  }
+  const double most = k_most_vertices / k_density * spacing * spacing;  /* area */
+  if (0.5 * length(vector_area(border)) > most) return too_many;
+  for (uint32_t l = 0; l < border.loops() && border.loops() > 1; ++l) {
+    const double own = 0.5 * length(area_of_loop(border, l));
+    if (!(0.5 * own > most)) continue;
+    const double away = clearance(border, l);
+    if (away > 0.0 && away * std::sqrt(2.0 * k_pi * own) > most) return too_many;
+  }
+  return {};
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/size_limit.cpp ======== */
+
 /* ======== begin src/network/snap_order.cpp ======== */
 namespace wireskin::network {
 
@@ -32624,7 +32975,7 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
                   Span<const Approach> approaches, SnapPlan* plan) {
   Array<Branch> branches(beads.context());
   TRY(plan->pass.resize(approaches.size()));
-  TRY(plan->beside.assign(approaches.size(), 0));
+  TRY(assign_in_parts(approaches.size(), 0, &plan->beside));
   size_t others = 0, exact = 0;
   for (size_t k = 0; k < approaches.size(); ++k) {
     const Approach& approach = approaches[k];
@@ -32641,8 +32992,8 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
     if (k % 1024 == 1023) TRY(beads.context().checkpoint());
   }
   plan->exact = !complete && 4 * exact >= 3 * others;
-  for (size_t k = 0; k < plan->pass.size() && !plan->exact; ++k) plan->pass[k] = SnapPass::crosses;
-  return {};
+  if (plan->exact) return {};
+  return assign_in_parts(approaches.size(), SnapPass::crosses, &plan->pass);
 }
 
 }  /* namespace wireskin::network */
@@ -32693,6 +33044,7 @@ static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8
     bool moves = false;
     for (uint32_t b = beads.wires.start[c]; b != k_none; b = beads.bead[b].next) {
       if (b == beads.wires.start[c] && !order.empty()) break;
+      TRY(pace.after());
       order.push_reserved(b);
       arc.push_reserved(length);
       pins.push_reserved(pinned[b]);
@@ -32700,10 +33052,11 @@ static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8
       moves = moves || displacement[b] != Vec3{};
       length += beads.bead[b].to_next;
     }
-    TRY(pace.after(order.size()));
     if (!moves) continue;
-    bend_curve({arc.span(), length, beads.wires.closed[c] != 0, pins.span(), shift.span()});
-    for (size_t k = 0; k < order.size(); ++k) displacement[order[k]] = shift[k];
+    TRY(bend_curve({arc.span(), length, beads.wires.closed[c] != 0, pins.span(), shift.span()},
+                   &pace));
+    TRY(in_parts(beads.context(), order.size(),
+                 [&](size_t k) { displacement[order[k]] = shift[k]; }));
   }
   return {};
 }
@@ -32714,12 +33067,13 @@ static Vec3 normal_between(const Vec3& a, const Vec3& b, double part) {
 }
 
 /* The beads of a curve without those on a short way from a new node back to itself. */
-static void list_beads(uint32_t c, double detour, Beads* beads, Array<uint32_t>* order,
-                       Array<double>* arc) {
+static Status list_beads(uint32_t c, double detour, Beads* beads, Pace* pace,
+                         Array<uint32_t>* order, Array<double>* arc) {
   order->clear(), arc->clear();
   double length = 0.0;
   const auto take_back = [&](uint32_t root, double from) {
     for (size_t k = order->size(); k-- > 0 && from - (*arc)[k] <= detour;) {
+      pace->add(1);
       if (beads->sets.find((*order)[k]) != root) continue;
       order->shrink(k + 1), arc->shrink(k + 1);
       return true;
@@ -32728,6 +33082,7 @@ static void list_beads(uint32_t c, double detour, Beads* beads, Array<uint32_t>*
   };
   for (uint32_t b = beads->wires.start[c]; b != k_none; b = beads->bead[b].next) {
     if (b == beads->wires.start[c] && !order->empty()) break;
+    TRY(pace->after());
     if (!beads->touched[beads->sets.find(b)] || !take_back(beads->sets.find(b), length)) {
       order->push_reserved(b), arc->push_reserved(length);
     }
@@ -32737,12 +33092,14 @@ static void list_beads(uint32_t c, double detour, Beads* beads, Array<uint32_t>*
   if (beads->wires.closed[c] && beads->touched[beads->sets.find(first)] && order->size() > 1) {
     if (take_back(beads->sets.find(first), length) && order->size() > 1) order->pop();
   }
-  if (order->size() >= (beads->wires.closed[c] ? 3 : 2)) return;
+  if (order->size() >= (beads->wires.closed[c] ? 3 : 2)) return {};
   order->clear();  /* nothing would be left */
   for (uint32_t b = beads->wires.start[c]; b != k_none; b = beads->bead[b].next) {
     if (b == beads->wires.start[c] && !order->empty()) break;
+    TRY(pace->after());
     order->push_reserved(b);
   }
+  return {};
 }
 
 /* Where every bead comes to lie. */
@@ -32756,10 +33113,10 @@ struct BeadMoves {
 static Status find_moves(Beads* beads, BeadMoves* moves) {
   Array<uint32_t> seen(beads->context());
   const uint32_t n = static_cast<uint32_t>(beads->bead.size());
-  TRY(moves->displacement.assign(n, Vec3{}));
+  TRY(assign_in_parts(n, Vec3{}, &moves->displacement));
   TRY(moves->target.resize(n));
-  TRY(moves->pinned.assign(n, 0));
-  TRY(seen.assign(beads->wires.points + size_t{n}, k_none));
+  TRY(assign_in_parts(n, 0, &moves->pinned));
+  TRY(assign_in_parts(beads->wires.points + size_t{n}, k_none, &seen));
   TRY(in_parts(beads->context(), n, [&](size_t i) {
     const uint32_t b = static_cast<uint32_t>(i);
     const Bead& bead = beads->bead[b];
@@ -32797,7 +33154,7 @@ Status write_beads(double detour, Beads* beads, Wires* out) {
   BeadMoves moves(beads->context());
   Array<uint32_t> name(beads->context()), order(beads->context());
   Array<double> arc(beads->context());
-  TRY(name.assign(n, k_none));
+  TRY(assign_in_parts(n, k_none, &name));
   TRY(order.reserve(n));
   TRY(arc.reserve(n));
   TRY(find_moves(beads, &moves));
@@ -32806,9 +33163,9 @@ Status write_beads(double detour, Beads* beads, Wires* out) {
   out->points = 0;
   Pace pace(beads->context());
   for (uint32_t c = 0; c < wires.curves(); ++c) {
-    list_beads(c, detour, beads, &order, &arc);
-    TRY(pace.after(order.size()));
+    TRY(list_beads(c, detour, beads, &pace, &order, &arc));
     for (const uint32_t b : order) {
+      TRY(pace.after());
       const uint32_t root = beads->sets.find(b);
       if (name[root] == k_none) name[root] = out->points++;
       out->point.push_reserved(name[root]);
@@ -35790,15 +36147,6 @@ Status count_inverted(Context& context, Surface* surface) {
 /* Normals, curvatures and the figures of the report, of the finished mesh. */
 static Status measure(Context& context, Span<const uint8_t> on_border, Span<const uint8_t> on_curve,
                       Surface* surface) {
-  TRY(context.enter(Stage::result));
-  bool is_finite = true;
-  TRY(in_parts(context, surface->position.size(), [&](size_t v) {
-    const Vec3& p = surface->position[v];
-    is_finite = is_finite && p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0;
-  }));
-  if (!is_finite) {
-    return fail(Code::not_positive_definite, "the solution of the linear system is not finite");
-  }
   TRY(surface->normal.resize(surface->position.size()));
   TRY(mesh::vertex_normals(context, surface->position.span(), surface->triangle.span(),
                            surface->normal.span()));
@@ -35831,9 +36179,38 @@ struct Workpiece {
   Span<const Vec3> start = {};
   Span<const uint8_t> placed = {};
   Span<const uint32_t> inner_edge = {};
+  Span<const uint32_t> origin = {};  /* in the mesh not cut open */
 };
 
 }  /* namespace */
+
+static Status check_finite(Context& context, Span<const Vec3> position) {
+  bool is_finite = true;
+  TRY(in_parts(context, position.size(), [&](size_t v) {
+    const Vec3& p = position[v];
+    is_finite = is_finite && p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0;
+  }));
+  if (is_finite) return {};
+  return fail(Code::not_positive_definite, "the solution of the linear system is not finite");
+}
+
+/* Spoilt patches go back to what they were, and are held as those are that a method guards. */
+static Status hold_back_spoilt(Context& context, const Workpiece& piece,
+                               Span<const uint32_t> unturned, Surface* surface) {
+  Counts* counts = &surface->counts;
+  Array<uint8_t>& guarded = surface->patch_guarded;
+  Array<uint8_t> back(context);
+  const SmoothedMesh mesh = {piece.position, piece.triangle, surface->patch.span(),
+                             piece.start,    unturned,       piece.origin};
+  TRY(put_back_spoilt(context, mesh, counts->patches, &back));
+  if (back.empty()) return {};
+  if (guarded.empty()) TRY(guarded.assign(counts->patches, 0));
+  for (size_t p = 0; p < back.size(); ++p) {
+    counts->guarded_patches += back[p] && !guarded[p];
+    guarded[p] = guarded[p] || back[p];
+  }
+  return {};
+}
 
 static Status apply_method(Context& context, const Start& start, const Workpiece& piece,
                            smooth::Method method, Surface* surface) {
@@ -35844,9 +36221,9 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                 vertex_patch.span()));
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
-    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve,    piece.held,
-                                   piece.on_border, start.metric, piece.soft,        piece.bare,
-                                   places,          start.spent,  start.spent_places};
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
+                                   piece.on_border, start.metric, piece.soft,     piece.bare,
+                                   places,          start.spent};
     return smooth::smooth(context, domain, method, {piece.position, piece.normal},
                           &counts->residual);
   }
@@ -35875,6 +36252,21 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   counts->guarded_patches = report.guarded_patches;
   counts->iterations = report.iterations;
   return {};
+}
+
+/* Smooths; what that spoils of a mesh from curves, which was sound and whose patches have nothing */
+/* to do with each other but the curves, goes back. Of other meshes the caller has to see to it. */
+static Status smooth_piece(Context& context, const Start& start, const Workpiece& piece,
+                           smooth::Method method, Surface* surface) {
+  const bool from_curves = start.metric == smooth::Metric::planes;
+  const bool turns = method == smooth::Method::iterated || method == smooth::Method::fair;
+  Array<uint32_t> unturned(context);
+  if (from_curves && turns) TRY(copy_in_parts(piece.triangle, &unturned));
+  TRY(apply_method(context, start, piece, method, surface));
+  TRY(context.enter(Stage::result));
+  TRY(check_finite(context, piece.position));
+  if (!from_curves) return {};
+  return hold_back_spoilt(context, piece, turns ? unturned.span() : piece.triangle, surface);
 }
 
 /* Held vertices whose normal nobody knows, as points may be; empty where there are none. */
@@ -35913,7 +36305,7 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
                            start.position,
                            start.placed,
                            start.inner_edge};
-  TRY(apply_method(context, start, piece, method, surface));
+  TRY(smooth_piece(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
 }
 
@@ -35957,8 +36349,10 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       creased->bare.span(),
       {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing},
       place.span(),
-      placed.span()};
-  TRY(apply_method(context, start, piece, method, surface));
+      placed.span(),
+      {},
+      creased->cut.origin.span()};
+  TRY(smooth_piece(context, start, piece, method, surface));
   TRY(network::merge_creases(context, *creased, surface->position.span(),
                              surface->triangle.span()));
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),
@@ -36123,11 +36517,14 @@ namespace wireskin {
 
 #ifdef WIRESKIN_DEBUG
 
+static bool is_stopped(const Status& status) {
+  return status.code == Code::out_of_memory || status.code == Code::memory_cap ||
+         status.code == Code::cancelled;
+}
+
 static Status stop_on_fault(const Status& status) {
-  const bool stopped = status.code == Code::out_of_memory || status.code == Code::memory_cap ||
-                       status.code == Code::cancelled;
-  WIRESKIN_ASSERT(status.ok() || stopped);
-  return stopped ? status : Status{};
+  WIRESKIN_ASSERT(status.ok() || is_stopped(status));
+  return is_stopped(status) ? status : Status{};
 }
 
 static uint64_t key_of_edge(uint32_t a, uint32_t b) {
@@ -36247,21 +36644,162 @@ Status verify_surface(Context& context, const network::Network& network, Span<co
 #endif
 }
 
-Status verify_triangles(Context& context, const Surface& surface) {
+Status verify_triangles(Context& context, const TriangleSet& given, const Surface& surface) {
 #ifdef WIRESKIN_DEBUG
   mesh::Expectations expectations;
+  expectations.may_fold = true;
+  expectations.position = given.position;
+  expectations.triangle = given.triangle;
+  /* It is a finite manifold whose triangles have some area, so that is all that may be found. */
+  const Status status = mesh::check(context, expectations);
+  if (is_stopped(status)) return status;
+  expectations.may_be_flat = !status.ok();
   expectations.position = surface.position.span();
   expectations.triangle = surface.triangle.span();
-  expectations.may_fold = true;
   return stop_on_fault(mesh::check(context, expectations));
 #else
-  (void)context, (void)surface;
+  (void)context, (void)given, (void)surface;
   return {};
 #endif
 }
 
 }  /* namespace wireskin */
 /* ======== end src/surface/verify.cpp ======== */
+
+/* ======== begin src/surface/spoilt.cpp ======== */
+namespace wireskin {
+
+/* The solver aims at a residual of 1e-12; what is thinner than this no one can tell from rounding. */
+static constexpr double k_least_height = 1e-10;
+/* Soft curves carry it from patch to patch; where that does not end, all patches go back. */
+static constexpr uint32_t k_most_rounds = 8;
+
+namespace {
+
+/* A triangle's doubled area, and its longest edge squared: their quotient is its height over that */
+/* edge as a share of it. */
+struct Height {
+  double area, longest2;
+};
+
+}  /* namespace */
+
+static Height height_of(Span<const Vec3> position, Span<const uint32_t> triangle, size_t t) {
+  const Vec3& a = position[triangle[3 * t]];
+  const Vec3& b = position[triangle[3 * t + 1]];
+  const Vec3& c = position[triangle[3 * t + 2]];
+  const double longest2 = larger(dot(b - a, b - a), larger(dot(c - b, c - b), dot(a - c, a - c)));
+  return {length(cross(b - a, c - a)), longest2};
+}
+
+static bool is_thin(const Height& height) {
+  return !(height.area > k_least_height * height.longest2);
+}
+
+static double share_of(const Height& height) {
+  return height.longest2 > 0.0 ? height.area / height.longest2 : 0.0;
+}
+
+/* The square of the distance that no vertex may go. */
+static Status find_farthest(Context& context, Span<const Vec3> start, double* farthest2) {
+  Vec3 low = start[0], high = start[0];
+  TRY(in_parts(context, start.size(), [&](size_t v) {
+    const Vec3& p = start[v];
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {larger(high.x, p.x), larger(high.y, p.y), larger(high.z, p.z)};
+  }));
+  *farthest2 = dot(high - low, high - low);
+  return {};
+}
+
+static bool is_far(const SmoothedMesh& mesh, double farthest2, size_t v) {
+  const Vec3 way = mesh.position[v] - mesh.start[v];
+  return dot(way, way) > farthest2;
+}
+
+/* Whether there is a thin triangle or a far vertex at all. */
+static Status may_be_spoilt(Context& context, const SmoothedMesh& mesh, double farthest2,
+                            bool* may_be) {
+  *may_be = false;
+  TRY(in_parts(context, mesh.patch.size(), [&](size_t t) {
+    *may_be = *may_be || is_thin(height_of(mesh.position, mesh.triangle, t));
+  }));
+  return in_parts(context, mesh.position.size(),
+                  [&](size_t v) { *may_be = *may_be || is_far(mesh, farthest2, v); });
+}
+
+/* The least height in each patch as a share of the edge, 1 where none is thin. */
+static Status find_least(Context& context, Span<const Vec3> position, Span<const uint32_t> triangle,
+                         Span<const uint32_t> patch, Span<double> least) {
+  for (double& l : least) l = 1.0;
+  return in_parts(context, patch.size(), [&](size_t t) {
+    const Height height = height_of(position, triangle, t);
+    if (!is_thin(height)) return;
+    least[patch[t]] = smaller(least[patch[t]], share_of(height));
+  });
+}
+
+Status find_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches, Spoilt* spoilt) {
+  double farthest2 = 0.0;
+  bool may_be = false;
+  spoilt->patch.clear();
+  spoilt->first = k_none;
+  TRY(find_farthest(context, mesh.start, &farthest2));
+  TRY(may_be_spoilt(context, mesh, farthest2, &may_be));
+  if (!may_be) return {};
+  Array<double> before(context);
+  TRY(before.resize(patches));
+  TRY(find_least(context, mesh.start, mesh.unturned, mesh.patch, before.span()));
+  TRY(spoilt->patch.assign(patches, 0));
+  TRY(in_parts(context, mesh.patch.size(), [&](size_t t) {
+    const uint32_t p = mesh.patch[t];
+    const Height height = height_of(mesh.position, mesh.triangle, t);
+    bool bad = is_thin(height) && share_of(height) < before[p];
+    for (size_t h = 3 * t; h < 3 * t + 3; ++h) {
+      bad = bad || is_far(mesh, farthest2, mesh.triangle[h]);
+    }
+    if (!bad) return;
+    spoilt->patch[p] = 1;
+    if (spoilt->first == k_none) spoilt->first = static_cast<uint32_t>(t);
+  }));
+  if (spoilt->first == k_none) spoilt->patch.clear();
+  return {};
+}
+
+/* With its curves a patch is what it was. A vertex goes back on every side of a crease. */
+static Status put_back(Context& context, const SmoothedMesh& mesh, Span<const uint8_t> back) {
+  const auto origin_of = [&](size_t v) { return mesh.origin.empty() ? v : mesh.origin[v]; };
+  Array<uint8_t> goes(context);
+  TRY(assign_in_parts(mesh.position.size(), 0, &goes));
+  TRY(in_parts(context, mesh.triangle.size(), [&](size_t h) {
+    if (!back[mesh.patch[h / 3]]) return;
+    mesh.triangle[h] = mesh.unturned[h];
+    goes[origin_of(mesh.unturned[h])] = 1;
+  }));
+  return in_parts(context, mesh.position.size(), [&](size_t v) {
+    if (goes[origin_of(v)]) mesh.position[v] = mesh.start[v];
+  });
+}
+
+Status put_back_spoilt(Context& context, const SmoothedMesh& mesh, uint32_t patches,
+                       Array<uint8_t>* back) {
+  Spoilt spoilt(context);
+  back->clear();
+  for (uint32_t round = 0;; ++round) {
+    TRY(find_spoilt(context, mesh, patches, &spoilt));
+    if (spoilt.first == k_none) return {};
+    if (back->empty()) TRY(back->assign(patches, 0));
+    WIRESKIN_ASSERT(round <= k_most_rounds && !(*back)[mesh.patch[spoilt.first]]);
+    for (size_t p = 0; p < patches; ++p) {
+      if (spoilt.patch[p] || round == k_most_rounds) (*back)[p] = 1;
+    }
+    TRY(put_back(context, mesh, back->span()));
+    TRY(context.checkpoint());
+  }
+}
+
+}  /* namespace wireskin */
+/* ======== end src/surface/spoilt.cpp ======== */
 
 /* ======== begin src/surface/flow_measure.cpp ======== */
 namespace wireskin {

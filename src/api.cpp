@@ -4,6 +4,7 @@
 #include "api/boundary.h"
 #include "api/curves.h"
 #include "base/in_parts.h"
+#include "surface/from_triangles.h"
 
 namespace wireskin::api {
 

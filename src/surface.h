@@ -1,5 +1,6 @@
-// The pipeline as one readable page: curves -> network -> patches -> smooth -> mesh; and the
-// shorter one for a mesh of the caller's, -> smooth -> mesh.
+// The pipeline as one readable page: curves -> network -> patches -> smooth -> mesh. Shorter ones
+// begin with a mesh of the caller's (surface/from_triangles.h) and with a flow
+// (surface/from_flow.h).
 //
 // In: checked, finite input with unit normals, scaled so that its extent is about one (api.cpp does
 // both). Out: a Surface. Counts are filled in as the work goes on, so that a failure can be
@@ -92,7 +93,7 @@ struct Surface {
   Array<uint32_t> patch;       // of each triangle
   Array<uint32_t> curve_edge;  // two vertices each
   Array<uint32_t> curve_edge_curve;
-  Array<uint8_t> patch_guarded;  // of each patch; empty where the method has no guard
+  Array<uint8_t> patch_guarded;  // of each patch: held back; empty where the method held none
   PatchList patches;
 
   explicit Surface(Context& context)
@@ -113,8 +114,5 @@ struct Surface {
 
 Status surface_curves(Context& context, const CurveSet& curves, const Settings& settings,
                       Surface* surface);
-
-Status surface_triangles(Context& context, const TriangleSet& mesh, const Settings& settings,
-                         Surface* surface);
 
 }  // namespace wireskin

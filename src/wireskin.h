@@ -149,7 +149,10 @@ enum {
   /* wsk_smooth_mesh: a connected component has no constrained vertex, or a vertex of an open border
      is free. */
   WSK_ERROR_UNCONSTRAINED = 23,
-  /* The linear system is not positive definite in double precision: the triangles are too thin. */
+  /* The linear system is not positive definite in double precision: the triangles are too thin. Or
+     (wsk_smooth_mesh) its solution spoils the mesh: the triangle named has less height than 1e-10
+     of its longest edge and less than any had in its component, or went farther than the diagonal
+     of the whole. */
   WSK_ERROR_NOT_POSITIVE_DEFINITE = 24
 };
 
@@ -349,7 +352,12 @@ typedef struct wsk_report {
   uint32_t minimal_area_patches; /* patches that no plane shows well: meshed in space instead */
   uint32_t guarded_patches; /* patches that WSK_METHOD_FAIR left as WSK_METHOD_ITERATED made them,
                                or that it or that method put back to an earlier step because the
-                               last one folded them; the view's patch_guarded says which */
+                               last one folded them; and those that any method spoilt, which keep
+                               the triangles that they started from: where one would have less
+                               height than 1e-10 of its longest edge, as those of long tubes that
+                               the first four methods draw together to a line, or go farther than
+                               the diagonal of the whole. Soft curves at these stay where they
+                               were given. The view's patch_guarded says which */
   double
       noise_position;  /* standard deviation of each coordinate, estimated or given; 0 if neither */
   double noise_normal; /* the same of the unit normals' components */
@@ -523,7 +531,8 @@ typedef struct wsk_surface_view {
   const uint32_t*
       curve_edge_curve;           /* 1 an edge: the caller's curve; both null for a caller's mesh */
   const uint8_t* patch_guarded;   /* 1 a patch: 1 where it was held back, see guarded_patches; null
-                                     for a caller's mesh and for methods that hold nothing back */
+                                     for a caller's mesh, and for the first four methods where
+                                     nothing was held back */
   const uint8_t* patch_way;       /* 1 a patch: WSK_PATCH_...; null, like the four that follow, for
                                      surfaces of a caller's mesh and of a flow */
   const wsk_status* patch_status; /* 1 a patch: WSK_OK, or why it was left out */
@@ -840,7 +849,7 @@ enum {
   WSK_FLOW_NORMALS_CONTRADICTING = 5,
   /* Pairs of triangles that crossed after the smoothing, a thousand at most. */
   WSK_FLOW_NORMALS_CROSSING = 6,
-  /* Triangles are too thin for the smoothing; no places. */
+  /* Triangles are too thin for the smoothing, or after it; no places. */
   WSK_FLOW_NORMALS_TOO_THIN = 7,
   WSK_FLOW_NORMALS_COUNT = 8
 };

@@ -25,8 +25,8 @@ static uint32_t unused_number(Span<const uint32_t> used, size_t* at, uint32_t ca
 
 static Status number_nodes(Context& context, const network::Wires& wires, NodeNumbers* numbers) {
   Array<uint32_t> least_number(context), members(context), used(context);
-  TRY(least_number.assign(wires.points, k_none));
-  TRY(members.assign(wires.points, 0));
+  TRY(assign_in_parts(wires.points, k_none, &least_number));
+  TRY(assign_in_parts(wires.points, 0, &members));
   TRY(used.reserve(wires.samples()));
   TRY(numbers->of_sample.resize(wires.samples()));
   TRY(in_parts(context, wires.samples(), [&](size_t i) {
@@ -40,13 +40,13 @@ static Status number_nodes(Context& context, const network::Wires& wires, NodeNu
   const uint32_t most = used.empty() ? 0 : used.back();
   uint32_t next = used.empty() ? 0 : most < k_none - 1 - wires.points ? most + 1 : 0;
   size_t at = next > most ? used.size() : 0;
-  for (uint32_t p = 0; p < wires.points; ++p) {
-    if (members[p] < 2 || least_number[p] != k_none) continue;
+  TRY(in_parts(context, wires.points, [&](size_t p) {
+    if (members[p] < 2 || least_number[p] != k_none) return;
     next = unused_number(used.span(), &at, next);
     numbers->least_fresh = next < numbers->least_fresh ? next : numbers->least_fresh;
     numbers->most_fresh = next;
     least_number[p] = next++;
-  }
+  }));
   return in_parts(context, wires.samples(), [&](size_t i) {
     const uint32_t p = wires.point[i];
     numbers->of_sample[i] = members[p] < 2 ? wires.number[i] : least_number[p];
@@ -100,36 +100,43 @@ static wsk_place place_of(const network::Origin& origin, const Vec3& position) {
   return {origin.curve, origin.sample, origin.part, {position.x, position.y, position.z}};
 }
 
-static const double* normals_or_null(const double* normals, size_t first, size_t count) {
-  for (size_t i = 3 * first; i < 3 * (first + count); ++i) {
-    if (normals[i] != 0.0) return normals + 3 * first;
+// Those of a curve, null where it has none.
+static Status find_normals(const double* normals, size_t first, size_t count, Pace* pace,
+                           const double** found) {
+  *found = nullptr;
+  for (size_t i = 3 * first; i < 3 * (first + count) && *found == nullptr; ++i) {
+    TRY(pace->after());
+    if (normals[i] != 0.0) *found = normals + 3 * first;
   }
-  return nullptr;
+  return {};
 }
 
 // The curves of the view, which point into the arrays of the block.
-static const wsk_curve* write_curves(const network::Wires& wires, const NetworkLayout& layout,
-                                     unsigned char* block) {
+static Status write_curves(const network::Wires& wires, const NetworkLayout& layout,
+                           unsigned char* block, wsk_network_view* view) {
   wsk_curve* curves = reinterpret_cast<wsk_curve*>(block + layout.curves);
   const double* positions = reinterpret_cast<const double*>(block + layout.positions);
   const double* normals = reinterpret_cast<const double*>(block + layout.normals);
   const double* right = reinterpret_cast<const double*>(block + layout.right);
   const uint32_t* nodes = reinterpret_cast<const uint32_t*>(block + layout.nodes);
+  Pace pace(wires.position.context());
   for (uint32_t c = 0; c < wires.curves(); ++c) {
     const uint32_t first = wires.start[c], count = wires.size(c);
+    TRY(pace.after());
     wsk_curve curve = {};
     curve.sample_count = count;
     curve.positions = positions + 3 * size_t{first};
-    curve.normals = normals_or_null(normals, first, count);
+    TRY(find_normals(normals, first, count, &pace, &curve.normals));
     curve.nodes = nodes + first;
     curve.closed = wires.closed[c];
     curve.boundary = wires.boundary[c];
     curve.soft = wires.soft[c];
     curve.sharp = wires.sharp[c];
-    if (curve.sharp != 0) curve.normals_right = normals_or_null(right, first, count);
+    if (curve.sharp != 0) TRY(find_normals(right, first, count, &pace, &curve.normals_right));
     curves[c] = curve;
   }
-  return curves;
+  view->curves = curves;
+  return {};
 }
 
 static wsk_network_counts counts_of(const network::WireCounts& counts, uint32_t open_gaps) {
@@ -137,21 +144,22 @@ static wsk_network_counts counts_of(const network::WireCounts& counts, uint32_t 
           counts.dangling, counts.components, open_gaps};
 }
 
-static void write_events(const network::ConnectResult& result, const Scale& lengths,
-                         const NetworkLayout& layout, unsigned char* block,
-                         wsk_network_view* view) {
+static Status write_events(const network::ConnectResult& result, const Scale& lengths,
+                           const NetworkLayout& layout, unsigned char* block,
+                           wsk_network_view* view) {
+  Context& context = result.contradictions.context();
   wsk_snap* snaps = reinterpret_cast<wsk_snap*>(block + layout.snaps);
-  for (size_t k = 0; k < result.snapping.snaps.size(); ++k) {
+  TRY(in_parts(context, result.snapping.snaps.size(), [&](size_t k) {
     const network::Snap& snap = result.snapping.snaps[k];
     snaps[k] = {place_of(snap.a, lengths(snap.at_a)), place_of(snap.b, lengths(snap.at_b)),
                 lengths(snap.distance), static_cast<wsk_snap_kind>(snap.kind)};
-  }
+  }));
   wsk_contradiction* contradictions =
       reinterpret_cast<wsk_contradiction*>(block + layout.contradictions);
-  for (size_t k = 0; k < result.contradictions.size(); ++k) {
+  TRY(in_parts(context, result.contradictions.size(), [&](size_t k) {
     const network::Contradiction& c = result.contradictions[k];
     contradictions[k] = {place_of(c.a, {}), place_of(c.b, {}), c.angle * (180.0 / k_pi)};
-  }
+  }));
   view->snaps = snaps;
   view->contradictions = contradictions;
   view->snap_count = static_cast<uint32_t>(result.snapping.snaps.size());
@@ -162,6 +170,7 @@ static void write_events(const network::ConnectResult& result, const Scale& leng
   view->filled_normals = result.normals.filled;
   view->turned_normals = result.turned;
   view->curves_without_normals = result.normals.missing;
+  return {};
 }
 
 // The normals of sample i on both sides, as far as there are two.
@@ -224,8 +233,8 @@ Status make_network(Context& context, const network::Wires& wires,
   const double* positions = nullptr;  // the curves point into them
   TRY(write_vectors(context, wires.position.span(), lengths, block + layout.positions, &positions));
   TRY(write_samples(wires, numbers, layout, given, block, &view));
-  view.curves = write_curves(wires, layout, block);
-  write_events(result, lengths, layout, block, &view);
+  TRY(write_curves(wires, layout, block, &view));
+  TRY(write_events(result, lengths, layout, block, &view));
   return context.progress(1.0);
 }
 

@@ -104,7 +104,7 @@ static Status read_sensor_sample(const wsk_sensor_curve& curve, uint32_t index, 
   return {};
 }
 
-static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
+static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index, Pace* pace,
                                 SensorCurves* sensor) {
   if (curve.sample_count < (curve.closed != 0 ? 4u : 2u)) {
     return fail(Code::too_few_samples, "the curve has too few samples", curve_place(index));
@@ -113,9 +113,8 @@ static Status read_sensor_curve(const wsk_sensor_curve& curve, uint32_t index,
     return fail(Code::bad_argument, "the curve has no arc lengths or no tangents",
                 curve_place(index));
   }
-  Pace pace(sensor->arc.context());
   for (uint32_t i = 0; i < curve.sample_count; ++i) {
-    TRY(pace.after());
+    TRY(pace->after());
     TRY(read_sensor_sample(curve, index, i, sensor));
   }
   network::Wires& wires = sensor->wires;
@@ -137,7 +136,8 @@ Status read_sensor_curves(const wsk_sensor_curve* curves, size_t count, SensorCu
   TRY(sensor->tangent.reserve(total));
   TRY(sensor->to_next.reserve(count));
   sensor->wires.start.push_reserved(0);
-  for (uint32_t c = 0; c < count; ++c) TRY(read_sensor_curve(curves[c], c, sensor));
+  Pace pace(sensor->arc.context());
+  for (uint32_t c = 0; c < count; ++c) TRY(read_sensor_curve(curves[c], c, &pace, sensor));
   return {};
 }
 

@@ -141,8 +141,10 @@ static bool any_bend_crosses(const Complex& complex, const StraightLines& lines,
   });
 }
 
-static Status list_lines(const Complex& complex, const Samples& samples, const StraightLines& lines,
-                         CurvesAcross* across) {
+static Status list_lines(const Drawing& drawing, CurvesAcross* across) {
+  const Complex& complex = drawing.complex;
+  const Samples& samples = drawing.samples;
+  const StraightLines& lines = drawing.lines;
   for (uint32_t line = 0; line + 1 < lines.arc_start.size(); ++line) {
     if (line % k_arcs_per_pause == 0) TRY(across->line_end.context().checkpoint());
     const uint32_t first = lines.arc_start[line], last = lines.arc_start[line + 1];
@@ -175,11 +177,12 @@ static Status list_lines(const Complex& complex, const Samples& samples, const S
   return across->plane_line.reserve(across->line_end.size());
 }
 
-static Status list_curved(const Complex& complex, const Samples& samples,
-                          const StraightLines& lines, CurvesAcross* across) {
+static Status list_curved(const Drawing& drawing, CurvesAcross* across) {
+  const Complex& complex = drawing.complex;
+  const Samples& samples = drawing.samples;
   Array<Vec3> point(across->curved.context());
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
-    if (lines.is_straight(a)) continue;
+    if (drawing.lines.is_straight(a)) continue;
     for (uint32_t i = samples.start[a]; i < samples.start[a + 1]; ++i) {
       TRY(across->curved.push(complex.same_as[samples.at[i]]));
       TRY(point.push(complex.point[across->curved.back()]));
@@ -188,13 +191,13 @@ static Status list_curved(const Complex& complex, const Samples& samples,
   return across->grid.build(point.span());
 }
 
-Status find_curves_across(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                          const StraightLines& lines, CurvesAcross* across) {
-  TRY(list_lines(complex, samples, lines, across));
-  TRY(list_curved(complex, samples, lines, across));
+Status find_curves_across(const Drawing& drawing, CurvesAcross* across) {
+  const Complex& complex = drawing.complex;
+  TRY(list_lines(drawing, across));
+  TRY(list_curved(drawing, across));
   TRY(across->crossed.assign(complex.triangle_count(), Crossed::unknown));
   TRY(across->judged.reserve(complex.triangle_count()));
-  return link_segments(complex, curves, across);
+  return link_segments(complex, drawing.curves, across);
 }
 
 // The complex is embedded: where no flat tetrahedron lies at a triangle no edge runs over it.
@@ -211,13 +214,14 @@ static bool has_flat_neighbour(const Complex& complex, const FacePlane& plane, u
   return false;
 }
 
-bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
-                uint32_t seed, uint32_t t, CurvesAcross* across) {
+bool is_crossed(const Drawing& drawing, const FacePlane& plane, uint32_t seed, uint32_t t,
+                CurvesAcross* across) {
+  const Complex& complex = drawing.complex;
   if (!has_flat_neighbour(complex, plane, t)) return false;
   if (across->crossed[t] == Crossed::unknown) {
     const PlaneTriangle triangle = place_triangle(complex, plane, t);
     const bool crossed = any_line_crosses(complex, plane, seed, triangle, across) ||
-                         any_bend_crosses(complex, lines, plane, triangle, across);
+                         any_bend_crosses(complex, drawing.lines, plane, triangle, across);
     across->crossed[t] = crossed ? Crossed::yes : Crossed::no;
     across->judged.push_reserved(t);
   }

@@ -52,11 +52,10 @@ inline bool near_plane(const FacePlane& plane, const Vec3& p) {
   return std::fabs(dot(p - plane.at, plane.normal)) <= plane.flat;
 }
 
-Status find_curves_across(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                          const StraightLines& lines, CurvesAcross* across);
+Status find_curves_across(const Drawing& drawing, CurvesAcross* across);
 
 // `seed` tells planes apart.
-bool is_crossed(const Complex& complex, const StraightLines& lines, const FacePlane& plane,
-                uint32_t seed, uint32_t t, CurvesAcross* across);
+bool is_crossed(const Drawing& drawing, const FacePlane& plane, uint32_t seed, uint32_t t,
+                CurvesAcross* across);
 
 }  // namespace wireskin::flow

@@ -91,15 +91,16 @@ static Status set_turns(const Complex& complex, const FlatFaces& faces, const Fa
 
 // Marks the edges of curves where two faces that stay make a crease, or one waits for another, and
 // the chords over them.
-static void mark_needs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const StraightLines& lines, const FlatFaces& faces, const FaceRims& rims,
+static void mark_needs(const Drawing& drawing, const FlatFaces& faces, const FaceRims& rims,
                        Span<Need> need, bool* any_settled) {
+  const Complex& complex = drawing.complex;
+  const CurveEdges& curves = drawing.curves;
   const auto stays = [&](uint32_t f) { return rims.stays(f); };
   for (uint32_t a = 0; a < rims.arc_count(); ++a) {
-    const CurveFault fault = fault_of(faces, lines, rims, a, stays);
+    const CurveFault fault = fault_of(faces, drawing.lines, rims, a, stays);
     if (fault.faces == 0 || fault.flat) continue;
     *any_settled = *any_settled || fault.faces > 1;
-    for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
+    for (uint32_t i = drawing.samples.start[a]; i + 1 < drawing.samples.start[a + 1]; ++i) {
       if (curves.edge_of[i] == k_none) continue;
       need[curves.edge_of[i]] = fault.faces == 1 ? Need::waiting : Need::settled;
     }
@@ -112,9 +113,9 @@ static void mark_needs(const Complex& complex, const Samples& samples, const Cur
   }
 }
 
-Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
-                       Lids lids, FlatCells* cells) {
+Status find_flat_cells(Context& context, const Drawing& drawing, const FlatFaces& faces, Lids lids,
+                       FlatCells* cells) {
+  const Complex& complex = drawing.complex;
   cells->turn.clear();
   cells->any_settled = false;
   cells->lid_start.clear();
@@ -125,14 +126,14 @@ Status find_flat_cells(Context& context, const Complex& complex, const Samples& 
   FaceRims rims(context);
   FaceCells between(context);
   Array<uint32_t> lid_faces(context);
-  TRY(link_rims(faces, static_cast<uint32_t>(samples.start.size() - 1), &rims));
+  TRY(link_rims(faces, static_cast<uint32_t>(drawing.samples.start.size() - 1), &rims));
   TRY(find_face_cells(complex, faces, &rims, &between));
-  TRY(merge_cells(context, samples, lines, faces, &rims, &between));
-  TRY(keep_dangling(faces, lines, &rims));
-  TRY(find_lids(context, complex, samples, lines, faces, lids, &rims, &lid_faces));
+  TRY(merge_cells(context, drawing, faces, &rims, &between));
+  TRY(keep_dangling(faces, drawing.lines, &rims));
+  TRY(find_lids(context, drawing, faces, lids, &rims, &lid_faces));
   TRY(list_lids(complex, faces, lid_faces.span(), cells));
   TRY(set_turns(complex, faces, rims, &between, &cells->turn));
-  mark_needs(complex, samples, curves, lines, faces, rims, cells->need.span(), &cells->any_settled);
+  mark_needs(drawing, faces, rims, cells->need.span(), &cells->any_settled);
   return {};
 }
 

@@ -29,8 +29,7 @@ struct FlatCells {
       : turn(context), need(context), lid_start(context), lid_middle(context) {}
 };
 
-Status find_flat_cells(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, const FlatFaces& faces,
-                       Lids lids, FlatCells* cells);
+Status find_flat_cells(Context& context, const Drawing& drawing, const FlatFaces& faces, Lids lids,
+                       FlatCells* cells);
 
 }  // namespace wireskin::flow

@@ -66,16 +66,17 @@ static bool in_plane(const Complex& complex, const FacePlane& plane, uint32_t t)
 }
 
 // Marks the edges of arcs.
-static Status mark_arcs(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                        const StraightLines& lines, FaceFlood* flood) {
+static Status mark_arcs(const Drawing& drawing, FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
+  const Samples& samples = drawing.samples;
   TRY(flood->straight.assign(complex.edge_count(), 0));
   TRY(flood->arc_of.assign(complex.edge_count(), k_none));
   TRY(flood->rim_of.assign(samples.start.size(), k_none));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
-      if (curves.edge_of[i] == k_none) continue;
-      flood->arc_of[curves.edge_of[i]] = a;
-      if (lines.is_straight(a)) flood->straight[curves.edge_of[i]] = 1;
+      if (drawing.curves.edge_of[i] == k_none) continue;
+      flood->arc_of[drawing.curves.edge_of[i]] = a;
+      if (drawing.lines.is_straight(a)) flood->straight[drawing.curves.edge_of[i]] = 1;
     }
   }
   return {};
@@ -88,25 +89,26 @@ static Vec3 edge_vector(const Complex& complex, uint32_t e, uint32_t from) {
 }
 
 // Edges of the complex that belong to the curves, or run along a straight line of them.
-static bool on_rim(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                   uint32_t e) {
-  if (curves.on_curve(e)) return true;
-  return lines.common(complex.edge[2 * size_t{e}], complex.edge[2 * size_t{e} + 1]) != k_none;
+static bool on_rim(const Drawing& drawing, uint32_t e) {
+  const Complex& complex = drawing.complex;
+  if (drawing.curves.on_curve(e)) return true;
+  return drawing.lines.common(complex.edge[2 * size_t{e}], complex.edge[2 * size_t{e} + 1]) !=
+         k_none;
 }
 
 // All corners on one straight line: such a triangle lies in every plane through it.
-static bool is_line(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                    uint32_t t) {
+static bool is_line(const Drawing& drawing, uint32_t t) {
+  const Complex& complex = drawing.complex;
   const uint32_t* const v = &complex.triangle[3 * size_t{t}];
   const uint32_t* const edge = &complex.triangle_edge[3 * size_t{t}];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t e = edge[(k + 1) % 3], f = edge[(k + 2) % 3];
-    if (!curves.on_curve(e) || !curves.on_curve(f)) continue;
+    if (!drawing.curves.on_curve(e) || !drawing.curves.on_curve(f)) continue;
     if (dot(edge_vector(complex, e, v[k]), edge_vector(complex, f, v[k])) < -k_same_line) {
       return true;
     }
   }
-  return lines.common(v[0], v[1], v[2]) != k_none;
+  return drawing.lines.common(v[0], v[1], v[2]) != k_none;
 }
 
 // Which side of an edge, within the plane, a triangle lies on.
@@ -129,9 +131,9 @@ static uint32_t sides_of(const Complex& complex, const FaceFlood& flood, const F
   return sides;
 }
 
-static Status flood_face(const Complex& complex, const CurveEdges& curves,
-                         const StraightLines& lines, const FlatFaces& faces, const FacePlane& plane,
+static Status flood_face(const Drawing& drawing, const FlatFaces& faces, const FacePlane& plane,
                          uint32_t seed, FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
   flood->member.clear();
   const auto add = [&](uint32_t t) {
     flood->mark[t] = seed;
@@ -143,12 +145,12 @@ static Status flood_face(const Complex& complex, const CurveEdges& curves,
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{flood->member[i]} + k];
       ++flood->work;
-      if (on_rim(complex, curves, lines, e)) continue;
+      if (on_rim(drawing, e)) continue;
       for (const uint32_t t : complex.triangles_of(e)) {
         const bool done = flood->mark[t] == seed || flood->visits[t] >= k_most_visits;
         if (done || faces.part[t] != FlatPart::none || !in_plane(complex, plane, t)) continue;
-        if (is_line(complex, curves, lines, t)) continue;
-        if (!is_crossed(complex, lines, plane, seed, t, &flood->across)) TRY(add(t));
+        if (is_line(drawing, t)) continue;
+        if (!is_crossed(drawing, plane, seed, t, &flood->across)) TRY(add(t));
         TRY(flood->pause());
       }
     }
@@ -177,12 +179,12 @@ static FacePlane plane_of_members(const Complex& complex, const FaceFlood& flood
 }
 
 // With noise the plane of one triangle is askew: the planes of all that it has in reach follow.
-static Status flood_plane(const Complex& complex, const CurveEdges& curves,
-                          const StraightLines& lines, const FlatFaces& faces, uint32_t seed,
+static Status flood_plane(const Drawing& drawing, const FlatFaces& faces, uint32_t seed,
                           FacePlane* plane, FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
   constexpr uint32_t k_most_planes = 4;
   for (uint32_t i = 0; i < k_most_planes; ++i) {
-    TRY(flood_face(complex, curves, lines, faces, *plane, seed, flood));
+    TRY(flood_face(drawing, faces, *plane, seed, flood));
     double off = 0.0;
     const FacePlane next = plane_of_members(complex, *flood, *plane, &off);
     if (off <= k_exact * plane->flat || i + 1 == k_most_planes) break;
@@ -199,12 +201,12 @@ static Status flood_plane(const Complex& complex, const CurveEdges& curves,
 }
 
 // Whether the triangle goes on, at each of its edges off the curves, on the other side.
-static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
-                              const StraightLines& lines, const FaceFlood& flood,
+static bool goes_on_all_round(const Drawing& drawing, const FaceFlood& flood,
                               const FacePlane& plane, uint32_t seed, uint32_t t) {
+  const Complex& complex = drawing.complex;
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-    if (on_rim(complex, curves, lines, e)) continue;
+    if (on_rim(drawing, e)) continue;
     if (sides_of(complex, flood, plane, seed, e) != 3) return false;
   }
   return true;
@@ -212,9 +214,9 @@ static bool goes_on_all_round(const Complex& complex, const CurveEdges& curves,
 
 // Leaves only triangles that go on all round: all of a face where curves close it, nothing where
 // not.
-static Status close_face(const Complex& complex, const CurveEdges& curves,
-                         const StraightLines& lines, const FacePlane& plane, uint32_t seed,
+static Status close_face(const Drawing& drawing, const FacePlane& plane, uint32_t seed,
                          FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
   Array<uint32_t>& left = flood->left;
   TRY(left.copy(flood->member.span()));
   while (!left.empty()) {
@@ -223,11 +225,11 @@ static Status close_face(const Complex& complex, const CurveEdges& curves,
     ++flood->work;
     TRY(flood->pause());
     if (flood->mark[t] != seed) continue;
-    if (goes_on_all_round(complex, curves, lines, *flood, plane, seed, t)) continue;
+    if (goes_on_all_round(drawing, *flood, plane, seed, t)) continue;
     flood->mark[t] = k_none;
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (on_rim(complex, curves, lines, e)) continue;
+      if (on_rim(drawing, e)) continue;
       for (const uint32_t next : complex.triangles_of(e)) {
         if (flood->mark[next] == seed) TRY(left.push(next));
       }
@@ -257,19 +259,20 @@ static bool turns_well(const Complex& complex, uint32_t e, FaceFlood* flood) {
   return well;
 }
 
-static bool is_polygon(const Complex& complex, const CurveEdges& curves, const StraightLines& lines,
-                       const FacePlane& plane, uint32_t seed, FaceFlood* flood) {
+static bool is_polygon(const Drawing& drawing, const FacePlane& plane, uint32_t seed,
+                       FaceFlood* flood) {
+  const Complex& complex = drawing.complex;
   double whole = 0.0, straight = 0.0;
   bool corners = true;
   for (const uint32_t t : flood->member) {
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (!on_rim(complex, curves, lines, e)) continue;
+      if (!on_rim(drawing, e)) continue;
       if (sides_of(complex, *flood, plane, seed, e) == 3) continue;
       const double size = length(complex.point[complex.edge[2 * size_t{e}]] -
                                  complex.point[complex.edge[2 * size_t{e} + 1]]);
       whole += size;
-      if (curves.on_curve(e) && flood->straight[e] == 0) continue;
+      if (drawing.curves.on_curve(e) && flood->straight[e] == 0) continue;
       straight += size;
       corners = turns_well(complex, e, flood) && corners;
     }
@@ -320,25 +323,26 @@ static bool runs_along(const Complex& complex, const Samples& samples, uint32_t 
   return common > 0.5 * smaller(whole, t - s);
 }
 
-static Status add_face(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                       const StraightLines& lines, const FacePlane& plane, uint32_t seed,
+static Status add_face(const Drawing& drawing, const FacePlane& plane, uint32_t seed,
                        FaceFlood* flood, FlatFaces* faces) {
+  const Complex& complex = drawing.complex;
+  const StraightLines& lines = drawing.lines;
   for (const uint32_t t : flood->member) {
     faces->part[t] = faces->polygon.back() != 0 ? FlatPart::polygon : FlatPart::disc;
     TRY(faces->triangle.push(t));
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t e = complex.triangle_edge[3 * size_t{t} + k];
-      if (!on_rim(complex, curves, lines, e)) continue;
+      if (!on_rim(drawing, e)) continue;
       const uint32_t sides = sides_of(complex, *flood, plane, seed, e);
       if (sides == 3) continue;
-      if (curves.on_curve(e)) {
+      if (drawing.curves.on_curve(e)) {
         TRY(add_rim(complex, plane, flood->arc_of[e], e, sides, seed, flood, faces));
         continue;
       }
       const uint32_t* const v = &complex.edge[2 * size_t{e}];
       const uint32_t line = lines.common(v[0], v[1]);
       for (uint32_t i = lines.arc_start[line]; i < lines.arc_start[line + 1]; ++i) {
-        if (!runs_along(complex, samples, lines.arc[i], e)) continue;
+        if (!runs_along(complex, drawing.samples, lines.arc[i], e)) continue;
         TRY(add_rim(complex, plane, lines.arc[i], e, sides, seed, flood, faces));
       }
     }
@@ -366,20 +370,21 @@ static bool plane_of_arc(const Samples& samples, uint32_t a, double flat, FacePl
 
 // Triangles at straight arcs, and those in the planes of others, which every face has, largest
 // first.
-static Status list_seeds(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                         const StraightLines& lines, double flat, Array<double>* area,
+static Status list_seeds(const Drawing& drawing, double flat, Array<double>* area,
                          Array<uint32_t>* seeds) {
+  const Complex& complex = drawing.complex;
+  const Samples& samples = drawing.samples;
   Pace pace(area->context());
   TRY(area->assign(complex.triangle_count(), 0.0));
   for (uint32_t a = 0; a + 1 < samples.start.size(); ++a) {
     FacePlane plane;
-    const bool straight = lines.is_straight(a);
+    const bool straight = drawing.lines.is_straight(a);
     if (!straight && !plane_of_arc(samples, a, flat, &plane)) continue;
     for (uint32_t i = samples.start[a]; i + 1 < samples.start[a + 1]; ++i) {
-      if (curves.edge_of[i] == k_none) continue;
-      for (const uint32_t t : complex.triangles_of(curves.edge_of[i])) {
+      if (drawing.curves.edge_of[i] == k_none) continue;
+      for (const uint32_t t : complex.triangles_of(drawing.curves.edge_of[i])) {
         TRY(pace.after());
-        if ((*area)[t] > 0.0 || is_line(complex, curves, lines, t)) continue;
+        if ((*area)[t] > 0.0 || is_line(drawing, t)) continue;
         if (!straight && !in_plane(complex, plane, t)) continue;
         (*area)[t] = length(cross_of_triangle(complex, t));
         TRY(seeds->push(t));
@@ -391,17 +396,17 @@ static Status list_seeds(const Complex& complex, const Samples& samples, const C
   });
 }
 
-static Status start_faces(const Complex& complex, const Samples& samples, const CurveEdges& curves,
-                          const StraightLines& lines, FaceFlood* flood, FlatFaces* faces) {
+static Status start_faces(const Drawing& drawing, FaceFlood* flood, FlatFaces* faces) {
+  const Complex& complex = drawing.complex;
   TRY(faces->part.assign(complex.triangle_count(), FlatPart::none));
   TRY(faces->start.push(0));
   TRY(faces->rim_start.push(0));
-  TRY(find_curves_across(complex, samples, curves, lines, &flood->across));
+  TRY(find_curves_across(drawing, &flood->across));
   TRY(flood->mark.assign(complex.triangle_count(), k_none));
   TRY(flood->visits.assign(complex.triangle_count(), 0));
   TRY(flood->seen.assign(complex.point.size(), 0));
   TRY(flood->border_edge.resize(complex.point.size()));
-  return mark_arcs(complex, samples, curves, lines, flood);
+  return mark_arcs(drawing, flood);
 }
 
 static Status forget_faces(FlatFaces* faces) {
@@ -416,35 +421,35 @@ static Status forget_faces(FlatFaces* faces) {
   return {};
 }
 
-Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, double noise,
-                       FlatFaces* faces, size_t most_work) {
+Status find_flat_faces(Context& context, const Drawing& drawing, double noise, FlatFaces* faces,
+                       size_t most_work) {
+  const Complex& complex = drawing.complex;
   const double flat = k_flat * complex.diagonal;
   faces->flat = larger(flat, smaller(k_noise_off_plane * noise, k_most_noise * flat));
   FaceFlood flood(context, most_work);
   Array<double> area(context);
   Array<uint32_t> seeds(context);
-  TRY(start_faces(complex, samples, curves, lines, &flood, faces));
+  TRY(start_faces(drawing, &flood, faces));
   TRY(context.checkpoint());
-  TRY(list_seeds(complex, samples, curves, lines, faces->flat, &area, &seeds));
+  TRY(list_seeds(drawing, faces->flat, &area, &seeds));
   for (const uint32_t seed : seeds) {
     TRY(flood.pause());
     if (flood.too_much()) return forget_faces(faces);
     if (flood.visits[seed] != 0) continue;
     flood.across.judged.clear();
     FacePlane plane = plane_of(complex, seed, faces->flat);
-    if (is_crossed(complex, lines, plane, seed, seed, &flood.across)) continue;
-    TRY(flood_plane(complex, curves, lines, *faces, seed, &plane, &flood));
+    if (is_crossed(drawing, plane, seed, seed, &flood.across)) continue;
+    TRY(flood_plane(drawing, *faces, seed, &plane, &flood));
     if (flood.too_much()) return forget_faces(faces);
-    TRY(close_face(complex, curves, lines, plane, seed, &flood));
+    TRY(close_face(drawing, plane, seed, &flood));
     if (flood.member.empty() || is_pierced(complex, plane, flood)) continue;
-    TRY(faces->polygon.push(is_polygon(complex, curves, lines, plane, seed, &flood)));
-    TRY(add_face(complex, samples, curves, lines, plane, seed, &flood, faces));
+    TRY(faces->polygon.push(is_polygon(drawing, plane, seed, &flood)));
+    TRY(add_face(drawing, plane, seed, &flood, faces));
   }
   if (faces->size() == 0) return {};
   return in_parts(context, complex.triangle_count(), [&](size_t i) {
     const uint32_t t = static_cast<uint32_t>(i);
-    if (is_line(complex, curves, lines, t)) faces->part[t] = FlatPart::line;
+    if (is_line(drawing, t)) faces->part[t] = FlatPart::line;
   });
 }
 

@@ -51,8 +51,7 @@ struct FlatFaces {
 inline constexpr size_t k_most_face_work = size_t{1} << 26;
 
 // `noise`: the standard deviation of the samples that was taken out, as corners have theirs still.
-Status find_flat_faces(Context& context, const Complex& complex, const Samples& samples,
-                       const CurveEdges& curves, const StraightLines& lines, double noise,
-                       FlatFaces* faces, size_t most_work = k_most_face_work);
+Status find_flat_faces(Context& context, const Drawing& drawing, double noise, FlatFaces* faces,
+                       size_t most_work = k_most_face_work);
 
 }  // namespace wireskin::flow

@@ -19,15 +19,11 @@ struct ArcEnds {
 };
 
 struct LidSearch {
-  const Complex* complex = nullptr;
-  const Samples* samples = nullptr;
-  const StraightLines* lines = nullptr;
-  const FlatFaces* faces = nullptr;
-  FaceRims* rims = nullptr;
+  const Drawing& drawing;
+  const FlatFaces& faces;
+  FaceRims* rims;
   ArcEnds ends;
   size_t work = 0;
-
-  explicit LidSearch(Context& context) : ends(context) {}
 };
 
 // What goes on from a curve, as one face at it sees that.
@@ -62,8 +58,8 @@ static Status link_ends(const Complex& complex, const Samples& samples, ArcEnds*
 
 // Where an arc leaves a plane through its end, seen from there; zero where it stays for a while.
 static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
-  const Samples& samples = *search->samples;
-  const double diagonal = search->complex->diagonal;
+  const Samples& samples = search->drawing.samples;
+  const double diagonal = search->drawing.complex.diagonal;
   const uint32_t first = samples.start[end / 2], last = samples.start[end / 2 + 1] - 1;
   const bool forward = (end & 1) == 0;
   const uint32_t from = forward ? first : last;
@@ -71,7 +67,7 @@ static Vec3 leaving(LidSearch* search, uint32_t end, const Vec3& normal) {
     const uint32_t i = forward ? first + k : last - k;
     const Vec3 to = samples.position[samples.at[i]] - samples.position[samples.at[from]];
     ++search->work;
-    if (std::fabs(dot(to, normal)) > k_off_plane * search->faces->flat) return to;
+    if (std::fabs(dot(to, normal)) > k_off_plane * search->faces.flat) return to;
     if (std::fabs(samples.along[i] - samples.along[from]) > k_look_along * diagonal) break;
   }
   return {};
@@ -86,26 +82,26 @@ static Vec3 tangent_of_end(const Samples& samples, uint32_t end) {
 
 // Whether a straight curve that ends at the node goes on there.
 static bool runs_on(const LidSearch& search, uint32_t vertex, uint32_t end) {
-  const uint32_t line = search.lines->line_of[end / 2];
+  const uint32_t line = search.drawing.lines.line_of[end / 2];
   if (line == k_none) return false;
   for (uint32_t i = search.ends.start[vertex]; i < search.ends.start[vertex + 1]; ++i) {
     const uint32_t other = search.ends.end[i];
-    if (other / 2 != end / 2 && search.lines->line_of[other / 2] == line) return true;
+    if (other / 2 != end / 2 && search.drawing.lines.line_of[other / 2] == line) return true;
   }
   return false;
 }
 
 // A curve that ends in mid-air shows no wall.
 static bool is_loose(const LidSearch& search, uint32_t end) {
-  const uint32_t v = vertex_of_end(*search.complex, *search.samples, end);
+  const uint32_t v = vertex_of_end(search.drawing.complex, search.drawing.samples, end);
   return search.ends.start[v + 1] - search.ends.start[v] == 1;
 }
 
 // Walls that curves show which leave the plane at an end of an arc. Those that leave it far apart,
 // seen along the arc, are in different walls: two on a side are enough to know.
 static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, Sheets* sheets) {
-  const uint32_t v = vertex_of_end(*search->complex, *search->samples, rim_end);
-  const Vec3 tangent = tangent_of_end(*search->samples, rim_end);
+  const uint32_t v = vertex_of_end(search->drawing.complex, search->drawing.samples, rim_end);
+  const Vec3 tangent = tangent_of_end(search->drawing.samples, rim_end);
   Vec3 first[2];
   uint32_t count[2] = {};
   for (uint32_t i = search->ends.start[v]; i < search->ends.start[v + 1]; ++i) {
@@ -128,7 +124,7 @@ static void add_walls(LidSearch* search, uint32_t rim_end, const Vec3& normal, S
 
 // Other flat faces at the same arc.
 static Sheets faces_beside(LidSearch* search, uint32_t rim, const Vec3& normal) {
-  const FlatFaces& faces = *search->faces;
+  const FlatFaces& faces = search->faces;
   const uint32_t arc = faces.rim[rim].arc;
   Sheets sheets;
   uint32_t up = k_none, down = k_none;
@@ -157,8 +153,8 @@ static Sheets faces_beside(LidSearch* search, uint32_t rim, const Vec3& normal) 
 
 // A wall is flat or shown by curves, maybe both.
 static Sheets sheets_at(LidSearch* search, uint32_t rim) {
-  const Vec3& normal = search->faces->normal[search->rims->face[rim]];
-  const uint32_t arc = search->faces->rim[rim].arc;
+  const Vec3& normal = search->faces.normal[search->rims->face[rim]];
+  const uint32_t arc = search->faces.rim[rim].arc;
   Sheets sheets = faces_beside(search, rim, normal);
   for (uint32_t k = 0; k < 2; ++k) add_walls(search, 2 * arc + k, normal, &sheets);
   return sheets;
@@ -171,7 +167,7 @@ struct RimFacts {
 };
 
 static RimFacts look_round(LidSearch* search, uint32_t face) {
-  const FlatFaces& faces = *search->faces;
+  const FlatFaces& faces = search->faces;
   const bool polygon = faces.polygon[face] != 0;
   RimFacts facts;
   for (uint32_t i = faces.rim_start[face]; i < faces.rim_start[face + 1]; ++i) {
@@ -217,7 +213,7 @@ struct Discs {
 // Sections of what has a lid are in the way of its void: they are open.
 static Status keep_lids(Context& context, const LidSearch& search, const Discs& discs, Lids which,
                         Array<uint32_t>* lids) {
-  const FlatFaces& faces = *search.faces;
+  const FlatFaces& faces = search.faces;
   const uint32_t arcs = search.rims->arc_count();
   Array<uint32_t> net(context), count(context);
   TRY(find_nets(search.ends, arcs, &net));
@@ -240,9 +236,9 @@ static Status keep_lids(Context& context, const LidSearch& search, const Discs& 
 // Holes that a curve joins to another one stay as they are: walls that do not bulge with a tunnel
 // leave gaps at its ends, and the ends' discs are surer.
 static Status open_holes(Context& context, LidSearch* search, Span<const uint32_t> holes) {
-  const Complex& complex = *search->complex;
-  const Samples& samples = *search->samples;
-  const FlatFaces& faces = *search->faces;
+  const Complex& complex = search->drawing.complex;
+  const Samples& samples = search->drawing.samples;
+  const FlatFaces& faces = search->faces;
   Array<uint32_t> hole_at(context);
   TRY(hole_at.assign(complex.point.size(), k_none));
   const auto each_end = [&](uint32_t f, const auto& visit) {
@@ -267,19 +263,13 @@ static Status open_holes(Context& context, LidSearch* search, Span<const uint32_
   return {};
 }
 
-Status find_lids(Context& context, const Complex& complex, const Samples& samples,
-                 const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
-                 Array<uint32_t>* lids) {
+Status find_lids(Context& context, const Drawing& drawing, const FlatFaces& faces, Lids which,
+                 FaceRims* rims, Array<uint32_t>* lids) {
   constexpr size_t k_work_per_checkpoint = 1u << 16;
-  LidSearch search(context);
+  LidSearch search = {drawing, faces, rims, ArcEnds(context)};
   Discs discs(context);
   Array<uint8_t> is_disc(context);
-  search.complex = &complex;
-  search.samples = &samples;
-  search.lines = &lines;
-  search.faces = &faces;
-  search.rims = rims;
-  TRY(link_ends(complex, samples, &search.ends));
+  TRY(link_ends(drawing.complex, drawing.samples, &search.ends));
   TRY(is_disc.assign(faces.size(), 0));
   // Discs count as sheets, too, until they turn out to be sections.
   for (uint32_t f = 0; f < faces.size(); ++f) {

@@ -18,8 +18,7 @@ namespace wireskin::flow {
 enum class Lids : uint8_t { single, all, none };
 
 // `lids`: the faces that are lids, whether they were to stay or not.
-Status find_lids(Context& context, const Complex& complex, const Samples& samples,
-                 const StraightLines& lines, const FlatFaces& faces, Lids which, FaceRims* rims,
-                 Array<uint32_t>* lids);
+Status find_lids(Context& context, const Drawing& drawing, const FlatFaces& faces, Lids which,
+                 FaceRims* rims, Array<uint32_t>* lids);
 
 }  // namespace wireskin::flow

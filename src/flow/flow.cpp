@@ -33,10 +33,9 @@ Status build_flow(Context& context, const Polylines& polylines, const FlowOption
   StraightLines lines(context);
   FlatFaces faces(context);
   TRY(find_straight_lines(flow->complex, flow->samples, &lines));
-  TRY(find_flat_faces(context, flow->complex, flow->samples, flow->curves, lines, options.noise,
-                      &faces));
-  TRY(find_flat_cells(context, flow->complex, flow->samples, flow->curves, lines, faces,
-                      options.lids, &flow->cells));
+  const Drawing drawing = {flow->complex, flow->samples, flow->curves, lines};
+  TRY(find_flat_faces(context, drawing, options.noise, &faces));
+  TRY(find_flat_cells(context, drawing, faces, options.lids, &flow->cells));
   return find_persistence(context, flow->complex, &flow->persistence, flow->cells.turn.span());
 }
 

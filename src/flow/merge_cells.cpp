@@ -137,9 +137,8 @@ static double cost_of(const CurveFault& fault) {
 
 // What the curves gain if the cells on both sides of these faces become one; below zero if one
 // would have fewer than two faces left.
-static double gain_of(const FlatFaces& faces, const StraightLines& lines, const Samples& samples,
-                      const FaceRims& rims, FaceCells* cells, const CellPair& pair,
-                      Merging* merging) {
+static double gain_of(const Drawing& drawing, const FlatFaces& faces, const FaceRims& rims,
+                      FaceCells* cells, const CellPair& pair, Merging* merging) {
   double gain = 0.0;
   bool bares = false;
   const auto each_arc = [&](const auto& visit) {
@@ -166,9 +165,10 @@ static double gain_of(const FlatFaces& faces, const StraightLines& lines, const 
     if (now - gone > 2) return;
     const auto any = [](uint32_t) { return true; };
     const CurveFault before =
-        now > 2 ? CurveFault{now, false} : fault_of(faces, lines, rims, arc, now, any);
-    const CurveFault after = fault_of(faces, lines, rims, arc, now, remains);
-    gain += samples.along[samples.start[arc + 1] - 1] * (cost_of(before) - cost_of(after));
+        now > 2 ? CurveFault{now, false} : fault_of(faces, drawing.lines, rims, arc, now, any);
+    const CurveFault after = fault_of(faces, drawing.lines, rims, arc, now, remains);
+    gain += drawing.samples.along[drawing.samples.start[arc + 1] - 1] *
+            (cost_of(before) - cost_of(after));
   });
   return bares ? -1.0 : gain;
 }
@@ -283,8 +283,8 @@ static void merge_pair(const FlatFaces& faces, const CellPair& pair, CellForest*
   forest->join(pair.low, pair.high);
 }
 
-Status merge_cells(Context& context, const Samples& samples, const StraightLines& lines,
-                   const FlatFaces& faces, FaceRims* rims, FaceCells* cells) {
+Status merge_cells(Context& context, const Drawing& drawing, const FlatFaces& faces, FaceRims* rims,
+                   FaceCells* cells) {
   Merging merging(context);
   const size_t cell_count = cells->forest.parent.size();
   TRY(merging.live.assign(rims->arc_count(), 0));
@@ -299,7 +299,7 @@ Status merge_cells(Context& context, const Samples& samples, const StraightLines
     TRY(list_pairs(faces, rims, cells, &merging));
     gather_live(rims, &merging);
     for (CellPair& pair : merging.pair) {
-      pair.gain = gain_of(faces, lines, samples, *rims, cells, pair, &merging);
+      pair.gain = gain_of(drawing, faces, *rims, cells, pair, &merging);
       if (merging.work < k_rims_per_pause) continue;
       merging.work = 0;
       TRY(context.checkpoint());

@@ -43,7 +43,7 @@ struct FaceCells {
 Status find_face_cells(const Complex& complex, const FlatFaces& faces, FaceRims* rims,
                        FaceCells* cells);
 
-Status merge_cells(Context& context, const Samples& samples, const StraightLines& lines,
-                   const FlatFaces& faces, FaceRims* rims, FaceCells* cells);
+Status merge_cells(Context& context, const Drawing& drawing, const FlatFaces& faces, FaceRims* rims,
+                   FaceCells* cells);
 
 }  // namespace wireskin::flow

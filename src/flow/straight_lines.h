@@ -24,6 +24,14 @@ struct StraightLines {
   uint32_t common(uint32_t u, uint32_t v, uint32_t w) const;
 };
 
+// The complex with what is known in it of the curves.
+struct Drawing {
+  const Complex& complex;
+  const Samples& samples;
+  const CurveEdges& curves;
+  const StraightLines& lines;
+};
+
 Status find_straight_lines(const Complex& complex, const Samples& samples, StraightLines* lines);
 
 }  // namespace wireskin::flow

@@ -95,7 +95,7 @@ static Status check_shapes(const Expectations& mesh) {
     const Vec3& c = mesh.position[mesh.triangle[3 * t + 2]];
     const double longest2 = larger(dot(b - a, b - a), larger(dot(c - b, c - b), dot(a - c, a - c)));
     const Vec3 area = area_vector(mesh, t);
-    if (!(length(area) > k_least_height * longest2)) {
+    if (!mesh.may_be_flat && !(length(area) > k_least_height * longest2)) {
       return bad_triangle("the triangle has no area", t);
     }
     if (mesh.patch_normal.empty()) continue;

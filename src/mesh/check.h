@@ -29,6 +29,8 @@ struct Expectations {
   const int32_t* euler_characteristic = nullptr;  // null: not known
   // No look at folds and inverted triangles: where the curves themselves have a cusp.
   bool may_fold = false;
+  // No look at the areas of triangles: where the caller's own have next to none.
+  bool may_be_flat = false;
 };
 
 Status check(Context& context, const Expectations& mesh);

@@ -2,6 +2,7 @@
 
 #include "mesh/curvature.h"
 #include "mesh/operators.h"
+#include "num/minmax.h"
 #include "sparse/cholesky.h"
 #include "sparse/ordering.h"
 #include "sparse/product.h"
@@ -132,6 +133,19 @@ Status raise_dome(Context& context, const Loops& loops, uint32_t held,
   return bend_least(bending, held, position);
 }
 
+// Takes back a field that grew to many times what it spreads from: that is no shape, but needles
+// over which second differences are next to nothing.
+static void take_back_overgrown(uint32_t held, Span<Vec3> shift) {
+  constexpr double k_most_growth = 100.0;
+  double given = 0.0, spread = 0.0;
+  for (uint32_t v = 0; v < shift.size(); ++v) {
+    double& greatest = v < held ? given : spread;
+    greatest = larger(greatest, length(shift[v]));
+  }
+  if (spread <= k_most_growth * given) return;
+  for (uint32_t v = held; v < shift.size(); ++v) shift[v] = Vec3{};
+}
+
 Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
                     Span<const uint32_t> triangle, Span<Vec3> shift) {
   if (held == position.size()) return {};
@@ -139,7 +153,10 @@ Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
   TRY(take_mesh(position, triangle, held, &bending));
   for (double& weight : bending.weight) weight = 1.0 / weight;
   const Status status = bend_least(bending, held, shift);
-  return status.code == Code::not_positive_definite ? Status{} : status;
+  if (status.code == Code::not_positive_definite) return {};
+  TRY(status);
+  take_back_overgrown(held, shift);
+  return {};
 }
 
 }  // namespace wireskin::mesh

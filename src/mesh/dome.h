@@ -21,7 +21,8 @@ Status raise_dome(Context& context, const Loops& loops, uint32_t held,
                   Span<const uint32_t> triangle, Span<Vec3> position);
 
 // Completes a field of shifts that is given at the vertices before `held`: least in the squares of
-// its Laplacian, level across the border. A field that the mesh is too thin for stays zero inside.
+// its Laplacian, level across the border. A field that the mesh is too thin for stays zero inside;
+// so does one that would grow to more than a hundred times what is given.
 Status spread_shift(Context& context, uint32_t held, Span<const Vec3> position,
                     Span<const uint32_t> triangle, Span<Vec3> shift);
 

@@ -230,7 +230,7 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
   Array<Box> box(context);
   Array<uint32_t> sample(context), near(context);
   BoxTree tree(context);
-  TRY(bulge.assign(wires.samples(), 0.0));
+  TRY(assign_in_parts(wires.samples(), 0.0, &bulge));
   TRY(box.reserve(wires.samples()));
   TRY(sample.reserve(wires.samples()));
   TRY(in_parts(context, wires.samples(), [&](size_t s) {
@@ -247,6 +247,7 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
   for (uint32_t e = 0; e < box.size(); ++e) {
     TRY(tree.find(box[e], e, &near));
     TRY(pace.after(k_steps_of_search));
+    TRY(make_room_in_parts(near.size(), approaches));
     for (const uint32_t other : near) {
       TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
       TRY(pace.after());

@@ -9,7 +9,7 @@ Status Beads::string_samples(size_t joints) {
   const size_t room = n + 2 * joints;
   if (room >= k_none) return fail(Code::too_large, "too many near places for 32-bit indices");
   TRY(bead.reserve(room));
-  TRY(touched.assign(room, 0));
+  TRY(assign_in_parts(room, 0, &touched));
   TRY(sets.reset(static_cast<uint32_t>(room)));
   PointMembers members(context());
   TRY(list_members(wires, &members));
@@ -65,12 +65,14 @@ Origin Beads::origin_of(const WirePlace& place) const {
 }
 
 BeadPlace Beads::locate(const WirePlace& place) const {
-  uint32_t b = place.edge;
-  if (place.part == 0.0) return {b, 0.0};
-  while (bead[bead[b].next].part != 0.0 && bead[bead[b].next].part <= place.part) {
-    b = bead[b].next;
+  if (place.part == 0.0) return {place.edge, 0.0};
+  uint32_t found = place.edge;
+  for (uint32_t b = bead[found].upper; b != k_none;) {
+    const bool beyond = bead[b].part > place.part;
+    if (!beyond) found = b;
+    b = beyond ? bead[b].lower : bead[b].upper;
   }
-  return {b, (place.part - bead[b].part) * edge_length(place.edge)};
+  return {found, (place.part - bead[found].part) * edge_length(place.edge)};
 }
 
 uint32_t Beads::special_near(const BeadPlace& place, double to_end, double to_node) const {
@@ -128,6 +130,35 @@ WirePlace Beads::nearest_place(const WirePlace& near, const Vec3& target, double
   return best;
 }
 
+// A bead's rank in the tree, drawn by lot, so that the tree is shallow in any order of the beads
+// that was not made for these ranks: the mixing of S. Vigna's splitmix64 (2015), which gives no rank
+// twice.
+static uint64_t lot(uint32_t b) {
+  uint64_t z = (b + 1ull) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return z ^ (z >> 31);
+}
+
+void Beads::plant(uint32_t b) {
+  const double part = bead[b].part;
+  uint32_t* place = &bead[bead[b].edge].upper;
+  while (*place != k_none && lot(*place) > lot(b)) {
+    place = bead[*place].part < part ? &bead[*place].upper : &bead[*place].lower;
+  }
+  uint32_t rest = *place;
+  *place = b;
+  // What was there is parted into what is less and what is more.
+  uint32_t *less = &bead[b].lower, *more = &bead[b].upper;
+  while (rest != k_none) {
+    uint32_t*& end = bead[rest].part < part ? less : more;
+    *end = rest;
+    end = bead[rest].part < part ? &bead[rest].upper : &bead[rest].lower;
+    rest = *end;
+  }
+  *less = *more = k_none;
+}
+
 uint32_t Beads::make_bead(const WirePlace& place) {
   const BeadPlace at = locate(place);
   constexpr double k_same = 1e-3;  // of the edge: nearer than this a sample serves
@@ -148,6 +179,7 @@ uint32_t Beads::make_bead(const WirePlace& place) {
   bead[at.bead].to_next = at.behind;
   bead[fresh.next].previous = index;
   bead.push_reserved(fresh);
+  plant(index);
   return index;
 }
 

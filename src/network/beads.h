@@ -3,8 +3,11 @@
 // A bead is a sample, or a place between samples that became one; beads of samples have the
 // sample's index. The beads of a curve are a list, those of a point a ring, and the set of a bead
 // names its point. In: wires, and how many joints there will be at most: each has room for two new
-// beads. No operation on them allocates; each costs the beads that it passes. Curves are made of
-// them again by network/write_beads.h.
+// beads. No operation on them allocates; each costs the beads that it passes, and the logarithm of
+// those made on its edge, for these are a search tree as well: one line may cross all others.
+// Curves are made of them again by network/write_beads.h.
+//
+// Source of the tree: R. Seidel, C. R. Aragon, "Randomized Search Trees", 1996.
 #pragma once
 
 #include "network/approach.h"
@@ -17,6 +20,9 @@ struct Bead {
   double part = 0.0;     // of the edge after sample `edge`; zero for samples
   uint32_t edge = k_none;
   uint32_t previous = k_none, next = k_none;
+  // The beads made on an edge are a tree by their parts: those of less part, those of more. It
+  // hangs on the edge's sample as what is more.
+  uint32_t lower = k_none, upper = k_none;
   uint32_t ring = k_none;
   uint32_t given = k_none;  // the point before any joint
   bool joined = false;      // that had more than one sample
@@ -70,6 +76,8 @@ struct Beads {
   uint32_t special_near(const BeadPlace& place, double to_end, double to_node) const;
   // The place nearest to `target` on the same curve, within `reach` along it.
   WirePlace nearest_place(const WirePlace& near, const Vec3& target, double reach) const;
+  // Puts a new bead into the tree of its edge.
+  void plant(uint32_t b);
   // The bead at a place; a new one between beads.
   uint32_t make_bead(const WirePlace& place);
   // Makes the points of two beads one.

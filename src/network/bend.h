@@ -7,7 +7,7 @@
 // their bits, and no kink arises at a joint. O(samples).
 #pragma once
 
-#include "base/array.h"
+#include "base/in_parts.h"
 #include "num/vec.h"
 
 namespace wireskin::network {
@@ -20,6 +20,6 @@ struct Bend {
   Span<Vec3> displacement;  // of pins on entry, of all on exit; that of others is zero on entry
 };
 
-void bend_curve(const Bend& bend);
+Status bend_curve(const Bend& bend, Pace* pace);
 
 }  // namespace wireskin::network

@@ -1,7 +1,7 @@
 #include "network/box_tree.h"
 
-#include "base/in_parts.h"
 #include "base/select.h"
+#include "base/sort_in_parts.h"
 #include "num/minmax.h"
 
 namespace wireskin::network {
@@ -81,7 +81,8 @@ Status BoxTree::build(Span<const Box> boxes) {
   TRY(order_.resize(count));
   TRY(node_.resize(nodes));
   if (count == 0) return {};
-  for (uint32_t i = 0; i < count; ++i) order_[i] = i;
+  TRY(in_parts<k_light_steps_per_checkpoint>(
+      order_.context(), count, [&](size_t i) { order_[i] = static_cast<uint32_t>(i); }));
   RangeStack todo;
   todo.push({0, 0, count});
   size_t work = 0;
@@ -101,9 +102,11 @@ Status BoxTree::build(Span<const Box> boxes) {
 
 Status BoxTree::find(const Box& box, uint32_t after, Array<uint32_t>* found) const {
   found->clear();
+  Pace pace(order_.context());
   RangeStack todo;
   todo.push({0, 0, static_cast<uint32_t>(order_.size())});
   while (todo.size > 0) {
+    TRY(pace.after());
     const TreeRange range = todo.pop();
     if (range.count == 0 || !boxes_meet(box, node_[range.node])) continue;
     if (!range.is_leaf()) {
@@ -116,8 +119,8 @@ Status BoxTree::find(const Box& box, uint32_t after, Array<uint32_t>* found) con
       if (other > after && boxes_meet(box, boxes_[other])) TRY(found->push(other));
     }
   }
-  sort(found->span(), [](uint32_t a, uint32_t b) { return a < b; });
-  return {};
+  const auto ascending = [](uint32_t a, uint32_t b) { return a < b; };
+  return sort_in_parts(order_.context(), found->span(), ascending);
 }
 
 }  // namespace wireskin::network

@@ -73,8 +73,8 @@ static Status link_ends(const Wires& wires, Chaining chaining, double corner,
   Array<uint8_t> cut(context);
   TRY(list_members(wires, &members));
   TRY(curve_of_samples(wires, &curve));
-  TRY(partner->assign(size_t{2} * wires.curves(), k_none));
-  TRY(cut.assign(size_t{2} * wires.curves(), 0));
+  TRY(assign_in_parts(size_t{2} * wires.curves(), k_none, partner));
+  TRY(assign_in_parts(size_t{2} * wires.curves(), 0, &cut));
   Pace pace(context);
   for (uint32_t p = 0; p < wires.points; ++p) {
     TRY(pace.after());
@@ -88,15 +88,15 @@ static Status link_ends(const Wires& wires, Chaining chaining, double corner,
     (*partner)[b] = a;
   }
   // Corners are judged while all joints still stand, so that the order does not matter.
-  for (uint32_t e = 0; e < partner->size(); ++e) {
+  TRY(in_parts(context, partner->size(), [&](size_t end) {
+    const uint32_t e = static_cast<uint32_t>(end);
     cut[e] = (*partner)[e] != k_none && is_corner(wires, partner->span(), e, corner);
-  }
-  for (uint32_t e = 0; e < partner->size(); ++e) {
-    if (!cut[e] || (*partner)[e] == k_none) continue;
+  }));
+  return in_parts(context, partner->size(), [&](size_t e) {
+    if (!cut[e] || (*partner)[e] == k_none) return;
     (*partner)[(*partner)[e]] = k_none;
     (*partner)[e] = k_none;
-  }
-  return {};
+  });
 }
 
 static void append_sample(const Wires& from, uint32_t i, bool backwards, bool sharp, Wires* to) {
@@ -111,10 +111,11 @@ static void append_sample(const Wires& from, uint32_t i, bool backwards, bool sh
 
 // Appends one piece, entered at `end`; the first sample is left out where it was the last one of
 // the piece before. A joint takes the normal of the piece that has one.
-static void append_piece(const Wires& from, uint32_t end, bool joined, Wires* to) {
+static Status append_piece(const Wires& from, uint32_t end, bool joined, Pace* pace, Wires* to) {
   const uint32_t c = end / 2, count = from.size(c);
   const bool backwards = end % 2 != 0;
   for (uint32_t k = 0; k < count; ++k) {
+    TRY(pace->after());
     const uint32_t i = backwards ? from.start[c + 1] - 1 - k : from.start[c] + k;
     if (k == 0 && joined) {
       if (to->normal.back() == Vec3{}) to->normal.back() = from.normal[i];
@@ -126,6 +127,7 @@ static void append_piece(const Wires& from, uint32_t end, bool joined, Wires* to
     along.backwards ^= backwards ? 1u : 0u;
     to->along.push_reserved(along);
   }
+  return {};
 }
 
 static void finish_curve(const Wires& from, uint32_t c, bool closed, bool chained, Wires* to) {
@@ -148,7 +150,7 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
   Array<uint8_t> used(context);
   Wires result(context);
   TRY(link_ends(*wires, chaining, corner, &partner));
-  TRY(used.assign(wires->curves(), 0));
+  TRY(assign_in_parts(wires->curves(), 0, &used));
   TRY(reserve_wires(wires->curves(), wires->samples(), !wires->right.empty(), &result));
   result.start.push_reserved(0);
   Pace pace(context);
@@ -158,6 +160,7 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
     uint32_t enter = 2 * c;
     bool closed = false;
     while (partner[enter] != k_none && !closed) {
+      TRY(pace.after());
       enter = partner[enter] ^ 1;
       closed = enter == 2 * c;
     }
@@ -165,8 +168,7 @@ Status chain_wires(Chaining chaining, double corner, Wires* wires) {
     for (uint32_t end = enter; end != k_none; end = partner[end ^ 1]) {
       if (used[end / 2]) break;
       used[end / 2] = 1;
-      append_piece(*wires, end, joined, &result);
-      TRY(pace.after(wires->size(end / 2)));
+      TRY(append_piece(*wires, end, joined, &pace, &result));
       joined = true;
     }
     finish_curve(*wires, c, closed || wires->closed[c], closed, &result);

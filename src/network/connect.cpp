@@ -29,10 +29,10 @@ static Status check_numbers(const Wires& wires, double tolerance) {
 // Points whose samples were not all one node of the caller's.
 static Status find_new_points(const Wires& wires, Array<uint8_t>* joined) {
   Array<uint32_t> number(wires.position.context());
-  TRY(number.assign(wires.points, k_none));
-  TRY(joined->assign(wires.points, 0));
+  TRY(assign_in_parts(wires.points, k_none, &number));
+  TRY(assign_in_parts(wires.points, 0, joined));
   Array<uint8_t> seen(wires.position.context());
-  TRY(seen.assign(wires.points, 0));
+  TRY(assign_in_parts(wires.points, 0, &seen));
   return in_parts(wires.position.context(), wires.samples(), [&](size_t i) {
     const uint32_t p = wires.point[i];
     if (seen[p] && (number[p] != wires.number[i] || number[p] == k_none)) (*joined)[p] = 1;
@@ -48,7 +48,7 @@ static Status complete_normals(const ConnectOptions& options, Wires* wires, Conn
   TRY(fill_along(wires, &result->normals));
   if (options.orient) {
     TRY(orient_across(wires, turned.span(), &result->contradictions));
-    for (uint8_t t : turned) result->turned += t;
+    TRY(in_parts(context, turned.size(), [&](size_t i) { result->turned += turned[i]; }));
   }
   TRY(fill_from_nodes(wires, &result->normals));
   TRY(find_new_points(*wires, &joined));

@@ -11,14 +11,14 @@ static bool is_known(const Vec3& normal) {
 }
 
 Status orient_along(Wires* wires, Array<uint8_t>* turned, Array<Contradiction>* contradictions) {
-  TRY(turned->assign(wires->samples(), 0));
+  TRY(assign_in_parts(wires->samples(), 0, turned));
   Pace pace(turned->context());
   for (uint32_t c = 0; c < wires->curves(); ++c) {
-    TRY(pace.after(wires->size(c)));
     if (wires->sharp[c]) continue;
     uint32_t last = k_none, first = k_none;
     Vec3 carried;
     for (uint32_t i = wires->start[c]; i < wires->start[c + 1]; ++i) {
+      TRY(pace.after());
       Vec3& normal = wires->normal[i];
       if (last != k_none) {
         carried = carry_normal(wires->position[i - 1], wires->position[i], carried);
@@ -35,6 +35,7 @@ Status orient_along(Wires* wires, Array<uint8_t>* turned, Array<Contradiction>* 
     if (!wires->closed[c] || last == first) continue;
     const uint32_t end = wires->start[c + 1] - 1;
     for (uint32_t i = last; i != first;) {
+      TRY(pace.after());
       const uint32_t next = i == end ? wires->start[c] : i + 1;
       carried = carry_normal(wires->position[i], wires->position[next], carried);
       i = next;
@@ -53,9 +54,9 @@ class SignedSets {
   explicit SignedSets(Context& context) : parent_(context), opposite_(context) {}
   Status reset(uint32_t size) {
     TRY(parent_.resize(size));
-    TRY(opposite_.assign(size, 0));
-    for (uint32_t i = 0; i < size; ++i) parent_[i] = i;
-    return {};
+    TRY(assign_in_parts(size, 0, &opposite_));
+    return in_parts<k_light_steps_per_checkpoint>(
+        parent_.context(), size, [&](size_t i) { parent_[i] = static_cast<uint32_t>(i); });
   }
   // The set of i, and whether i is opposite to it.
   uint32_t find(uint32_t i, bool* opposite) {
@@ -204,7 +205,7 @@ Status orient_across(Wires* wires, Span<uint8_t> turned, Array<Contradiction>* c
   Election election(wires, turned);
   TRY(curve_of_samples(*wires, &election.curve));
   TRY(election.sets.reset(wires->curves()));
-  TRY(election.votes.assign(wires->curves(), Vote{}));
+  TRY(assign_in_parts(wires->curves(), Vote{}, &election.votes));
   TRY(relate_curves(*wires, election.curve.span(), &election.sets, contradictions));
   TRY(count_votes(&election));
   return in_parts(election.curve.context(), wires->samples(), [&](size_t s) {

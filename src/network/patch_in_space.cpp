@@ -3,6 +3,7 @@
 #include "mesh/band.h"
 #include "mesh/branches.h"
 #include "mesh/dome.h"
+#include "mesh/inlay.h"
 #include "num/minmax.h"
 
 namespace wireskin::network {
@@ -14,7 +15,8 @@ static constexpr double k_least_closing = 0.3;
 // length.
 static constexpr double k_coarser = 4.0, k_edges_of_coarse_border = 60.0;
 
-bool has_needles(const SpaceMesh& mesh) {
+// Whether some triangle is so thin that the systems to come would be singular.
+static bool has_needles(const SpaceMesh& mesh) {
   constexpr double k_needle = 1e-5;
   const Span<const Vec3> position = mesh.position.span();
   for (size_t t = 0; t < mesh.triangle.size(); t += 3) {
@@ -113,8 +115,9 @@ Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mes
   return take_loop_mesh(border, spacing, mesh);
 }
 
-Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
-                   SpaceMesh* mesh) {
+// Raises a dome again and refines it where that stretched it, with more held than the border.
+static Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
+                          SpaceMesh* mesh) {
   constexpr int k_rounds = 2;
   SpaceMesh raised(mesh->position.context());
   TRY(raised.position.copy(mesh->position.span()));
@@ -126,6 +129,56 @@ Status raise_again(const Border& border, const mesh::HeldCurves& held, double sp
   mesh->position = static_cast<Array<Vec3>&&>(raised.position);
   mesh->triangle = static_cast<Array<uint32_t>&&>(raised.triangle);
   return {};
+}
+
+// Lets the mesh in space pass through the curves and points inside the patch.
+static Status inlay(const PatchDomain& domain, double spacing, SpaceMesh* mesh) {
+  Context& context = domain.vertex.context();
+  const Border& border = domain.border;
+  const uint32_t rim = border.size(), n = domain.size();
+  Array<DomainEdge> lines(context);
+  Array<uint32_t> edges(context);
+  for (size_t e = 0; e < domain.inner_edge.size(); e += 2) {
+    const uint32_t a = domain.inner_edge[e], b = domain.inner_edge[e + 1];
+    TRY(lines.push(a < b ? DomainEdge{a, b} : DomainEdge{b, a}));
+  }
+  sort_edges(lines.span());
+  for (const DomainEdge& line : lines) {
+    TRY(edges.push(line.a));
+    TRY(edges.push(line.b));
+  }
+  const mesh::Inlay curves = {domain.position.span().part(rim, n - rim), edges.span()};
+  TRY(mesh::inlay_curves(context, border.start.span(), curves, spacing, &mesh->position,
+                         &mesh->triangle));
+  if (has_needles(*mesh)) {
+    return fail(Code::patch_folded, "curves inside the patch lie too near each other");
+  }
+  if (!mesh->raised || mesh->band) return {};
+  return raise_again(border, {n, edges.span()}, spacing, mesh);
+}
+
+// Names the curve of the local vertex that a failure speaks of.
+static Status at_local_vertex(Status status, const CurveVertices& vertices,
+                              const PatchDomain& domain) {
+  const uint32_t v = status.place.vertex;
+  status.place.vertex = k_none;
+  if (v < domain.vertex.size()) status.place.curve = vertices.curve[domain.vertex[v]];
+  return status;
+}
+
+Status mesh_in_space(const PatchDomain& domain, const CurveVertices& vertices, double spacing,
+                     SpaceMesh* mesh) {
+  const Border& border = domain.border;
+  const uint32_t rim = border.size();
+  for (uint32_t i = 0; i < rim; ++i) {
+    if (domain.loop[i] == i) continue;
+    return fail(Code::patch_folded,
+                "no plane shows the patch without folds, and its border passes a point twice");
+  }
+  TRY(mesh_border_in_space(border, spacing, mesh));
+  // A curve of a single edge from loop to loop brings no vertex.
+  if (domain.size() == rim && domain.inner_edge.empty()) return {};
+  return at_local_vertex(inlay(domain, spacing, mesh), vertices, domain);
 }
 
 }  // namespace wireskin::network

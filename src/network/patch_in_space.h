@@ -9,7 +9,7 @@
 #pragma once
 
 #include "mesh/loop_refine.h"
-#include "network/border.h"
+#include "network/patch_domain.h"
 
 namespace wireskin::network {
 
@@ -26,11 +26,9 @@ struct SpaceMesh {
 // Failures are those of mesh/loop_mesh.h.
 Status mesh_border_in_space(const Border& border, double spacing, SpaceMesh* mesh);
 
-// Raises a dome again and refines it where that stretched it, with more held than the border.
-Status raise_again(const Border& border, const mesh::HeldCurves& held, double spacing,
-                   SpaceMesh* mesh);
-
-// Whether some triangle is so thin that the systems to come would be singular.
-bool has_needles(const SpaceMesh& mesh);
+// With the curves and points inside the patch as well (mesh/inlay.h), the domain's vertices first.
+// Fails with patch_folded, naming a curve, where these cross or the border passes a point twice.
+Status mesh_in_space(const PatchDomain& domain, const CurveVertices& vertices, double spacing,
+                     SpaceMesh* mesh);
 
 }  // namespace wireskin::network

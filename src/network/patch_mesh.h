@@ -24,8 +24,8 @@ struct PatchMesh {
   uint32_t vertices = 0;
   uint32_t curve_vertices = 0;
   uint32_t coarse_patches = 0, first_coarse_patch = k_none;  // at more than the spacing
-  Array<uint32_t> triangle;          // three vertices each
-  Array<uint32_t> patch;             // of each triangle
+  Array<uint32_t> triangle;                                  // three vertices each
+  Array<uint32_t> patch;                                     // of each triangle
   Array<mesh::TriangleShape> shape;  // of each triangle, in its patch's plane or in space
   Array<PatchWay> way;               // of each patch
   Array<Status> status;              // of each patch: why it has no triangles

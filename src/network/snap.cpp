@@ -175,7 +175,8 @@ Status Snapper::unite(const Meeting& m, SnapResult* result) {
   snap.distance = length(m.at_a - m.at_b);
   if (beads_.is_end(x) || beads_.is_end(z)) snap.kind = SnapKind::end_inside;
   if (beads_.is_end(x) && beads_.is_end(z)) snap.kind = SnapKind::end_end;
-  TRY(result->snaps.push(snap));
+  TRY(make_room_in_parts(1, &result->snaps));
+  result->snaps.push_reserved(snap);
   beads_.unite(x, z);
   return {};
 }
@@ -206,7 +207,7 @@ Status Snapper::join(const Approach& approach, bool beside, SnapResult* result) 
 Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
                          SnapResult* result) {
   constexpr SnapPass k_order[] = {SnapPass::settled, SnapPass::crosses, SnapPass::beside};
-  constexpr size_t k_steps_of_join = 512;  // it may pass all joints of an edge
+  constexpr size_t k_steps_of_join = 512;  // it may search all within four tolerances
   Pace pace(context());
   for (const SnapPass now : k_order) {
     for (size_t k = 0; k < approaches.size(); ++k) {
@@ -243,8 +244,8 @@ Status Snapper::count_open(Span<const Approach> approaches, Span<const uint8_t> 
   const auto less = [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; };
   TRY(sort_in_parts(context(), pairs.span(), less));
   *open = 0;
-  for (size_t k = 0; k < pairs.size(); ++k) *open += k == 0 || less(pairs[k - 1], pairs[k]);
-  return {};
+  return in_parts(context(), pairs.size(),
+                  [&](size_t k) { *open += k == 0 || less(pairs[k - 1], pairs[k]); });
 }
 
 Status Snapper::run(SnapResult* result) {
@@ -263,8 +264,8 @@ Status Snapper::run(SnapResult* result) {
   };
   TRY(sort_in_parts(context(), approaches.span(), nearer));
   TRY(beads_.string_samples(approaches.size()));
-  TRY(best_.assign(beads_.room(), 0.0));
-  TRY(stamp_.assign(beads_.room(), 0));
+  TRY(assign_in_parts(beads_.room(), 0.0, &best_));
+  TRY(assign_in_parts(beads_.room(), 0, &stamp_));
   SnapPlan plan(context());
   TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), &plan));
   TRY(count_open(approaches.span(), plan.beside.span(), &result->open_before));

@@ -1,5 +1,7 @@
 #include "network/snap_order.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::network {
 
 // Whether an end of a curve clearly meets the other curve.
@@ -36,7 +38,7 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
                   Span<const Approach> approaches, SnapPlan* plan) {
   Array<Branch> branches(beads.context());
   TRY(plan->pass.resize(approaches.size()));
-  TRY(plan->beside.assign(approaches.size(), 0));
+  TRY(assign_in_parts(approaches.size(), 0, &plan->beside));
   size_t others = 0, exact = 0;
   for (size_t k = 0; k < approaches.size(); ++k) {
     const Approach& approach = approaches[k];
@@ -53,8 +55,8 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
     if (k % 1024 == 1023) TRY(beads.context().checkpoint());
   }
   plan->exact = !complete && 4 * exact >= 3 * others;
-  for (size_t k = 0; k < plan->pass.size() && !plan->exact; ++k) plan->pass[k] = SnapPass::crosses;
-  return {};
+  if (plan->exact) return {};
+  return assign_in_parts(approaches.size(), SnapPass::crosses, &plan->pass);
 }
 
 }  // namespace wireskin::network

@@ -5,10 +5,16 @@
 
 namespace wireskin::network {
 
+// Every index names itself.
+static Status count_up_in_parts(Array<uint32_t>* indices) {
+  return in_parts<k_light_steps_per_checkpoint>(
+      indices->context(), indices->size(),
+      [&](size_t i) { (*indices)[i] = static_cast<uint32_t>(i); });
+}
+
 Status DisjointSets::reset(uint32_t size) {
   TRY(parent_.resize(size));
-  for (uint32_t i = 0; i < size; ++i) parent_[i] = i;
-  return {};
+  return count_up_in_parts(&parent_);
 }
 
 uint32_t DisjointSets::find(uint32_t i) {
@@ -29,10 +35,11 @@ bool DisjointSets::unite(uint32_t a, uint32_t b) {
 
 Status curve_of_samples(const Wires& wires, Array<uint32_t>* curve) {
   TRY(curve->resize(wires.samples()));
-  for (uint32_t c = 0; c < wires.curves(); ++c) {
-    for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) (*curve)[i] = c;
-  }
-  return {};
+  uint32_t c = 0;
+  return in_parts<k_light_steps_per_checkpoint>(curve->context(), wires.samples(), [&](size_t i) {
+    while (i >= wires.start[c + 1]) ++c;
+    (*curve)[i] = c;
+  });
 }
 
 Status reserve_wires(uint32_t curves, uint32_t samples, bool sharp, Wires* wires) {
@@ -77,7 +84,7 @@ static Status unite_places(const Wires& wires, DisjointSets* sets) {
   Context& context = wires.position.context();
   Array<uint32_t> order(context);
   TRY(order.resize(wires.samples()));
-  for (uint32_t i = 0; i < wires.samples(); ++i) order[i] = i;
+  TRY(count_up_in_parts(&order));
   const Span<const Vec3> position = wires.position.span();
   TRY(sort_in_parts(context, order.span(), [position](uint32_t a, uint32_t b) {
     if (position[a] != position[b]) return lies_before(position[a], position[b]);
@@ -91,7 +98,7 @@ static Status unite_places(const Wires& wires, DisjointSets* sets) {
 Status number_points(DisjointSets* sets, Wires* wires) {
   Context& context = wires->position.context();
   Array<uint32_t> name(context);
-  TRY(name.assign(wires->samples(), k_none));
+  TRY(assign_in_parts(wires->samples(), k_none, &name));
   TRY(wires->point.resize(wires->samples()));
   wires->points = 0;
   return in_parts(context, wires->samples(), [&](size_t i) {
@@ -110,7 +117,7 @@ Status weld(Wires* wires) {
 }
 
 Status list_members(const Wires& wires, PointMembers* members) {
-  TRY(members->first.assign(wires.points + size_t{1}, 0));
+  TRY(assign_in_parts(wires.points + size_t{1}, 0, &members->first));
   TRY(members->member.resize(wires.samples()));
   Context& context = wires.position.context();
   TRY(in_parts(context, wires.samples(), [&](size_t i) { ++members->first[wires.point[i]]; }));
@@ -154,8 +161,8 @@ Status automatic_tolerance(const Wires& wires, double diagonal, double* toleranc
   TRY(lengths.reserve(wires.samples()));
   Pace pace(context);
   for (uint32_t c = 0; c < wires.curves(); ++c) {
-    TRY(pace.after(wires.size(c)));
     for (uint32_t i = wires.start[c]; i < wires.start[c + 1]; ++i) {
+      TRY(pace.after());
       const uint32_t j = wires.next(c, i);
       if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
     }

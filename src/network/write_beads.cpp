@@ -47,6 +47,7 @@ static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8
     bool moves = false;
     for (uint32_t b = beads.wires.start[c]; b != k_none; b = beads.bead[b].next) {
       if (b == beads.wires.start[c] && !order.empty()) break;
+      TRY(pace.after());
       order.push_reserved(b);
       arc.push_reserved(length);
       pins.push_reserved(pinned[b]);
@@ -54,10 +55,11 @@ static Status bend_beads(const Beads& beads, Span<Vec3> displacement, Span<uint8
       moves = moves || displacement[b] != Vec3{};
       length += beads.bead[b].to_next;
     }
-    TRY(pace.after(order.size()));
     if (!moves) continue;
-    bend_curve({arc.span(), length, beads.wires.closed[c] != 0, pins.span(), shift.span()});
-    for (size_t k = 0; k < order.size(); ++k) displacement[order[k]] = shift[k];
+    TRY(bend_curve({arc.span(), length, beads.wires.closed[c] != 0, pins.span(), shift.span()},
+                   &pace));
+    TRY(in_parts(beads.context(), order.size(),
+                 [&](size_t k) { displacement[order[k]] = shift[k]; }));
   }
   return {};
 }
@@ -68,12 +70,13 @@ static Vec3 normal_between(const Vec3& a, const Vec3& b, double part) {
 }
 
 // The beads of a curve without those on a short way from a new node back to itself.
-static void list_beads(uint32_t c, double detour, Beads* beads, Array<uint32_t>* order,
-                       Array<double>* arc) {
+static Status list_beads(uint32_t c, double detour, Beads* beads, Pace* pace,
+                         Array<uint32_t>* order, Array<double>* arc) {
   order->clear(), arc->clear();
   double length = 0.0;
   const auto take_back = [&](uint32_t root, double from) {
     for (size_t k = order->size(); k-- > 0 && from - (*arc)[k] <= detour;) {
+      pace->add(1);
       if (beads->sets.find((*order)[k]) != root) continue;
       order->shrink(k + 1), arc->shrink(k + 1);
       return true;
@@ -82,6 +85,7 @@ static void list_beads(uint32_t c, double detour, Beads* beads, Array<uint32_t>*
   };
   for (uint32_t b = beads->wires.start[c]; b != k_none; b = beads->bead[b].next) {
     if (b == beads->wires.start[c] && !order->empty()) break;
+    TRY(pace->after());
     if (!beads->touched[beads->sets.find(b)] || !take_back(beads->sets.find(b), length)) {
       order->push_reserved(b), arc->push_reserved(length);
     }
@@ -91,12 +95,14 @@ static void list_beads(uint32_t c, double detour, Beads* beads, Array<uint32_t>*
   if (beads->wires.closed[c] && beads->touched[beads->sets.find(first)] && order->size() > 1) {
     if (take_back(beads->sets.find(first), length) && order->size() > 1) order->pop();
   }
-  if (order->size() >= (beads->wires.closed[c] ? 3 : 2)) return;
+  if (order->size() >= (beads->wires.closed[c] ? 3 : 2)) return {};
   order->clear();  // nothing would be left
   for (uint32_t b = beads->wires.start[c]; b != k_none; b = beads->bead[b].next) {
     if (b == beads->wires.start[c] && !order->empty()) break;
+    TRY(pace->after());
     order->push_reserved(b);
   }
+  return {};
 }
 
 // Where every bead comes to lie.
@@ -110,10 +116,10 @@ struct BeadMoves {
 static Status find_moves(Beads* beads, BeadMoves* moves) {
   Array<uint32_t> seen(beads->context());
   const uint32_t n = static_cast<uint32_t>(beads->bead.size());
-  TRY(moves->displacement.assign(n, Vec3{}));
+  TRY(assign_in_parts(n, Vec3{}, &moves->displacement));
   TRY(moves->target.resize(n));
-  TRY(moves->pinned.assign(n, 0));
-  TRY(seen.assign(beads->wires.points + size_t{n}, k_none));
+  TRY(assign_in_parts(n, 0, &moves->pinned));
+  TRY(assign_in_parts(beads->wires.points + size_t{n}, k_none, &seen));
   TRY(in_parts(beads->context(), n, [&](size_t i) {
     const uint32_t b = static_cast<uint32_t>(i);
     const Bead& bead = beads->bead[b];
@@ -151,7 +157,7 @@ Status write_beads(double detour, Beads* beads, Wires* out) {
   BeadMoves moves(beads->context());
   Array<uint32_t> name(beads->context()), order(beads->context());
   Array<double> arc(beads->context());
-  TRY(name.assign(n, k_none));
+  TRY(assign_in_parts(n, k_none, &name));
   TRY(order.reserve(n));
   TRY(arc.reserve(n));
   TRY(find_moves(beads, &moves));
@@ -160,9 +166,9 @@ Status write_beads(double detour, Beads* beads, Wires* out) {
   out->points = 0;
   Pace pace(beads->context());
   for (uint32_t c = 0; c < wires.curves(); ++c) {
-    list_beads(c, detour, beads, &order, &arc);
-    TRY(pace.after(order.size()));
+    TRY(list_beads(c, detour, beads, &pace, &order, &arc));
     for (const uint32_t b : order) {
+      TRY(pace.after());
       const uint32_t root = beads->sets.find(b);
       if (name[root] == k_none) name[root] = out->points++;
       out->point.push_reserved(name[root]);

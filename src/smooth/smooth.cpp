@@ -169,7 +169,6 @@ Status smooth(Context& context, const Domain& domain, Method method, const Field
                   guided.area.span(), guided.weight.span()));
   const Order order = method == Method::triharmonic ? Order::three : Order::two;
   TRY(guided.system.prepare(laplacian, domain.held, order, domain.places));
-  if (domain.spent_places != nullptr) domain.spent_places->free();
   if (!uses_normals) {
     Array<double> penalty(context);
     TRY(penalties(domain, static_cast<int>(order), false, &penalty));

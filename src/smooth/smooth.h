@@ -39,9 +39,8 @@ struct Domain {
   // as it is found stands for it. Empty: none.
   Span<const uint8_t> bare = {};
   Places places = {};  // for the order of elimination
-  // Given back once `shape` and `places.position`, their views, have been read.
+  // Given back once `shape`, its view, has been read.
   Array<mesh::TriangleShape>* spent = nullptr;
-  Array<Vec3>* spent_places = nullptr;
 };
 
 // Position and normal of every vertex: in, those of the held ones; out, all.

@@ -5,6 +5,7 @@
 #include "mesh/curvature.h"
 #include "mesh/inverted.h"
 #include "smooth/fair.h"
+#include "surface/spoilt.h"
 
 namespace wireskin {
 
@@ -34,15 +35,6 @@ Status count_inverted(Context& context, Surface* surface) {
 // Normals, curvatures and the figures of the report, of the finished mesh.
 static Status measure(Context& context, Span<const uint8_t> on_border, Span<const uint8_t> on_curve,
                       Surface* surface) {
-  TRY(context.enter(Stage::result));
-  bool is_finite = true;
-  TRY(in_parts(context, surface->position.size(), [&](size_t v) {
-    const Vec3& p = surface->position[v];
-    is_finite = is_finite && p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0;
-  }));
-  if (!is_finite) {
-    return fail(Code::not_positive_definite, "the solution of the linear system is not finite");
-  }
   TRY(surface->normal.resize(surface->position.size()));
   TRY(mesh::vertex_normals(context, surface->position.span(), surface->triangle.span(),
                            surface->normal.span()));
@@ -75,9 +67,38 @@ struct Workpiece {
   Span<const Vec3> start = {};
   Span<const uint8_t> placed = {};
   Span<const uint32_t> inner_edge = {};
+  Span<const uint32_t> origin = {};  // in the mesh not cut open
 };
 
 }  // namespace
+
+static Status check_finite(Context& context, Span<const Vec3> position) {
+  bool is_finite = true;
+  TRY(in_parts(context, position.size(), [&](size_t v) {
+    const Vec3& p = position[v];
+    is_finite = is_finite && p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0;
+  }));
+  if (is_finite) return {};
+  return fail(Code::not_positive_definite, "the solution of the linear system is not finite");
+}
+
+// Spoilt patches go back to what they were, and are held as those are that a method guards.
+static Status hold_back_spoilt(Context& context, const Workpiece& piece,
+                               Span<const uint32_t> unturned, Surface* surface) {
+  Counts* counts = &surface->counts;
+  Array<uint8_t>& guarded = surface->patch_guarded;
+  Array<uint8_t> back(context);
+  const SmoothedMesh mesh = {piece.position, piece.triangle, surface->patch.span(),
+                             piece.start,    unturned,       piece.origin};
+  TRY(put_back_spoilt(context, mesh, counts->patches, &back));
+  if (back.empty()) return {};
+  if (guarded.empty()) TRY(guarded.assign(counts->patches, 0));
+  for (size_t p = 0; p < back.size(); ++p) {
+    counts->guarded_patches += back[p] && !guarded[p];
+    guarded[p] = guarded[p] || back[p];
+  }
+  return {};
+}
 
 static Status apply_method(Context& context, const Start& start, const Workpiece& piece,
                            smooth::Method method, Surface* surface) {
@@ -88,9 +109,9 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
                                 vertex_patch.span()));
   const smooth::Places places = {piece.start, vertex_patch.span()};
   if (method != smooth::Method::iterated && method != smooth::Method::fair) {
-    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve,    piece.held,
-                                   piece.on_border, start.metric, piece.soft,        piece.bare,
-                                   places,          start.spent,  start.spent_places};
+    const smooth::Domain domain = {piece.triangle,  start.shape,  piece.on_curve, piece.held,
+                                   piece.on_border, start.metric, piece.soft,     piece.bare,
+                                   places,          start.spent};
     return smooth::smooth(context, domain, method, {piece.position, piece.normal},
                           &counts->residual);
   }
@@ -119,6 +140,21 @@ static Status apply_method(Context& context, const Start& start, const Workpiece
   counts->guarded_patches = report.guarded_patches;
   counts->iterations = report.iterations;
   return {};
+}
+
+// Smooths; what that spoils of a mesh from curves, which was sound and whose patches have nothing
+// to do with each other but the curves, goes back. Of other meshes the caller has to see to it.
+static Status smooth_piece(Context& context, const Start& start, const Workpiece& piece,
+                           smooth::Method method, Surface* surface) {
+  const bool from_curves = start.metric == smooth::Metric::planes;
+  const bool turns = method == smooth::Method::iterated || method == smooth::Method::fair;
+  Array<uint32_t> unturned(context);
+  if (from_curves && turns) TRY(copy_in_parts(piece.triangle, &unturned));
+  TRY(apply_method(context, start, piece, method, surface));
+  TRY(context.enter(Stage::result));
+  TRY(check_finite(context, piece.position));
+  if (!from_curves) return {};
+  return hold_back_spoilt(context, piece, turns ? unturned.span() : piece.triangle, surface);
 }
 
 // Held vertices whose normal nobody knows, as points may be; empty where there are none.
@@ -157,7 +193,7 @@ Status smooth_surface(Context& context, const Start& start, const Constraints& c
                            start.position,
                            start.placed,
                            start.inner_edge};
-  TRY(apply_method(context, start, piece, method, surface));
+  TRY(smooth_piece(context, start, piece, method, surface));
   return measure(context, start.on_border, constraints.on_curve.span(), surface);
 }
 
@@ -201,8 +237,10 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
       creased->bare.span(),
       {cutoff.span(), share.span(), anchor.span(), given_normal.span(), surface->counts.spacing},
       place.span(),
-      placed.span()};
-  TRY(apply_method(context, start, piece, method, surface));
+      placed.span(),
+      {},
+      creased->cut.origin.span()};
+  TRY(smooth_piece(context, start, piece, method, surface));
   TRY(network::merge_creases(context, *creased, surface->position.span(),
                              surface->triangle.span()));
   TRY(measure(context, start.on_border, on_curve.span().part(0, surface->position.size()),

@@ -15,14 +15,13 @@ struct Start {
   Span<const mesh::TriangleShape> shape;
   smooth::Metric metric;
   Span<const uint8_t> on_border;
-  // Of each vertex: roughly where it will stand (for the order of elimination), and exactly where
-  // it starts if it is placed.
+  // Of each vertex where it starts: placed ones do; for the others it is roughly where they will
+  // stand (for the order of elimination), and where their patch goes back to if need be.
   Span<const Vec3> position = {};
   Span<const uint8_t> placed = {};       // free vertices; empty: none
   Span<const uint32_t> inner_edge = {};  // of curves inside patches, two vertices each
-  // What `shape` and `position` view, if it may be given back.
+  // What `shape` views, if it may be given back.
   Array<mesh::TriangleShape>* spent = nullptr;
-  Array<Vec3>* spent_places = nullptr;
 };
 
 // Neighbours, the check of the mesh, and the counts that follow from them.

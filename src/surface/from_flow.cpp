@@ -8,6 +8,7 @@
 #include "surface/constraints.h"
 #include "surface/finish.h"
 #include "surface/flow_measure.h"
+#include "surface/spoilt.h"
 
 namespace wireskin {
 
@@ -237,6 +238,22 @@ static Status count_opposed(Context& context, const Surface& surface, uint32_t* 
   return {};
 }
 
+// Smooths; `*too_thin`: whether that led nowhere for the shapes of the triangles.
+static Status try_method(Context& context, const mesh::Topology& topology, smooth::Method method,
+                         Span<const Vec3> start, Span<const uint32_t> unturned, Surface* surface,
+                         bool* too_thin) {
+  const Status status = smooth_flow_surface(context, topology, method, surface);
+  *too_thin = status.code == Code::not_positive_definite;
+  if (*too_thin) return {};
+  TRY(status);
+  Spoilt spoilt(context);
+  const SmoothedMesh mesh = {surface->position.span(), surface->triangle.span(),
+                             surface->patch.span(), start, unturned};
+  TRY(find_spoilt(context, mesh, surface->counts.patches, &spoilt));
+  *too_thin = spoilt.first != k_none;
+  return {};
+}
+
 // What the smoothing changes, to be put back if it leads nowhere.
 static Status smooth_or_restore(Context& context, const mesh::Topology& topology,
                                 Span<const Vec3> offset, smooth::Method method, Surface* surface,
@@ -247,8 +264,10 @@ static Status smooth_or_restore(Context& context, const mesh::Topology& topology
   TRY(copy_in_parts(surface->position.span(), &position));
   TRY(copy_in_parts(surface->triangle.span(), &triangle));
   for (size_t v = 0; v < offset.size(); ++v) surface->position[v] += offset[v];
-  const Status status = smooth_flow_surface(context, topology, method, surface);
-  if (status.ok()) {
+  bool too_thin = false;
+  TRY(try_method(context, topology, method, position.span(), triangle.span(), surface, &too_thin));
+  outcome->normals = NormalsUse::too_thin;
+  if (!too_thin) {
     TRY(flow::find_crossings(context, surface->position.span(), surface->triangle.span(),
                              k_most_pairs, &pairs));
     if (pairs.empty()) {
@@ -257,9 +276,6 @@ static Status smooth_or_restore(Context& context, const mesh::Topology& topology
     }
     outcome->normals = NormalsUse::crossing;
     outcome->normals_places = static_cast<uint32_t>(pairs.size() / 2);
-  } else {
-    if (status.code != Code::not_positive_definite) return status;
-    outcome->normals = NormalsUse::too_thin;
   }
   surface->position = static_cast<Array<Vec3>&&>(position);
   surface->triangle = static_cast<Array<uint32_t>&&>(triangle);

@@ -8,11 +8,14 @@ namespace wireskin {
 
 #ifdef WIRESKIN_DEBUG
 
+static bool is_stopped(const Status& status) {
+  return status.code == Code::out_of_memory || status.code == Code::memory_cap ||
+         status.code == Code::cancelled;
+}
+
 static Status stop_on_fault(const Status& status) {
-  const bool stopped = status.code == Code::out_of_memory || status.code == Code::memory_cap ||
-                       status.code == Code::cancelled;
-  WIRESKIN_ASSERT(status.ok() || stopped);
-  return stopped ? status : Status{};
+  WIRESKIN_ASSERT(status.ok() || is_stopped(status));
+  return is_stopped(status) ? status : Status{};
 }
 
 static uint64_t key_of_edge(uint32_t a, uint32_t b) {
@@ -132,15 +135,21 @@ Status verify_surface(Context& context, const network::Network& network, Span<co
 #endif
 }
 
-Status verify_triangles(Context& context, const Surface& surface) {
+Status verify_triangles(Context& context, const TriangleSet& given, const Surface& surface) {
 #ifdef WIRESKIN_DEBUG
   mesh::Expectations expectations;
+  expectations.may_fold = true;
+  expectations.position = given.position;
+  expectations.triangle = given.triangle;
+  // It is a finite manifold whose triangles have some area, so that is all that may be found.
+  const Status status = mesh::check(context, expectations);
+  if (is_stopped(status)) return status;
+  expectations.may_be_flat = !status.ok();
   expectations.position = surface.position.span();
   expectations.triangle = surface.triangle.span();
-  expectations.may_fold = true;
   return stop_on_fault(mesh::check(context, expectations));
 #else
-  (void)context, (void)surface;
+  (void)context, (void)given, (void)surface;
   return {};
 #endif
 }

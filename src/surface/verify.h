@@ -16,7 +16,8 @@ namespace wireskin {
 Status verify_surface(Context& context, const network::Network& network, Span<const Vec3> position,
                       const Surface& surface);
 
-// The same without a network, for a mesh of the caller's.
-Status verify_triangles(Context& context, const Surface& surface);
+// The same without a network, for a mesh of the caller's: a triangle may be as good as flat in the
+// result if one was as it was given.
+Status verify_triangles(Context& context, const TriangleSet& given, const Surface& surface);
 
 }  // namespace wireskin

@@ -100,6 +100,8 @@ void all_methods(Page& page, Bounds& bounds, Measured& measured, const std::vect
                "unavoidable", "factorisations", "ms"});
   for (const Case& c : cases) {
     for (const Method& m : k_methods) {
+      const bool bound = m.method == WSK_METHOD_FAIR || (held && m.method == WSK_METHOD_STANKO);
+      if (bounds.alone() && !bound) continue;
       const Row& row = measured.of(c, m.method);
       const wsk_report& report = row.result.report;
       if (row.result.status != WSK_OK) {

@@ -26,7 +26,7 @@ Error between_levels(const Result& coarse, const Result& fine) {
   return error;
 }
 
-// Spacings at the coarsest level: smoothing.md, section 4, in the order of the cases.
+// Spacings at the coarsest level.
 struct Start {
   size_t of_case;
   double spacing;
@@ -77,6 +77,7 @@ void convergence_table(Page& page, Bounds& bounds) {
   for (const Start& start : k_starts) {
     for (const Method& m : k_methods) {
       if (m.method != WSK_METHOD_STANKO && m.method != WSK_METHOD_FAIR) continue;
+      if (bounds.alone() && m.method != WSK_METHOD_FAIR) continue;
       const Case& c = cases[start.of_case];
       Case named = c;
       named.name += text(", d = %g", start.spacing);

@@ -41,6 +41,8 @@ const Treatment k_treatments[] = {
     {"fair, soft", WSK_METHOD_FAIR, WSK_SMOOTHING_NONE, 4.0},
 };
 
+bool is_held(const Treatment& m) { return m.smoothing == WSK_SMOOTHING_AUTO; }
+
 struct Shape {
   std::string name;
   networks::Network network;
@@ -101,7 +103,7 @@ void noise_rows(Page& page, Bounds& bounds, const Shape& shape, const Treatment&
     options.soft = m.soft * shape.spacing;
     const Result result = build(noisy, options);
     const std::string what = shape.name + ", " + m.name + ", noise " + level.name;
-    const bool held = m.smoothing == WSK_SMOOTHING_AUTO;
+    const bool held = is_held(m);
     if (held) bounds.built(what, result);
     if (result.status != WSK_OK) {
       page.row({shape.name, m.name, level.name, wsk_status_name(result.status), "", "", "", ""});
@@ -135,7 +137,10 @@ void noise_table(Page& page, Bounds& bounds) {
   page.header({"shape", "method", "noise", "RMS", "curve normals, used", "curve normals, clean",
                "ripples", "over clean"});
   for (const Shape& shape : shapes()) {
-    for (const Treatment& m : k_treatments) noise_rows(page, bounds, shape, m);
+    for (const Treatment& m : k_treatments) {
+      if (bounds.alone() && !is_held(m)) continue;
+      noise_rows(page, bounds, shape, m);
+    }
   }
   page.end_table();
 }

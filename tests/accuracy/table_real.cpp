@@ -79,6 +79,8 @@ void real_table(Page& page, Bounds& bounds) {
   for (const RealCase& c : cases) {
     double stanko = 0.0;
     for (const Method& m : {k_methods[3], k_methods[0], k_methods[4], k_methods[5]}) {
+      const bool bound = m.method == WSK_METHOD_STANKO || m.method == WSK_METHOD_FAIR;
+      if (bounds.alone() && !bound) continue;
       const RealRow row = real_row(page, c, m, stanko);
       if (m.method == WSK_METHOD_STANKO) stanko = row.error.rms;
       const bool cut = c.name != "lilium";

@@ -12,6 +12,10 @@ namespace accuracy {
 // What was asked for and not reached; the tables say it at the end.
 class Bounds {
  public:
+  explicit Bounds(bool alone) : alone_(alone) {}
+
+  // Rows that no bound refers to are left out.
+  bool alone() const { return alone_; }
   void at_most(const std::string& what, double value, double bound) {
     ++asked_;
     if (!(value <= bound)) broken_.push_back(what + text(": %.3g, bound %.3g", value, bound));
@@ -25,6 +29,7 @@ class Bounds {
   const std::vector<std::string>& broken() const { return broken_; }
 
  private:
+  bool alone_;
   size_t asked_ = 0;
   std::vector<std::string> broken_;
 };

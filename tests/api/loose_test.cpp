@@ -248,6 +248,9 @@ TEST_CASE("partial: patches that fail are left out and listed") {
     eight.node.push_back(WSK_NONE);
   }
   net.lines.insert(net.lines.begin(), eight);
+  net.bump(-1.5, 0.5, 0.4);
+  net.bump(0.5, 2.0, 0.3);
+  net.lines[2].node.back() = net.lines[3].node.front() = 7;
   const Built strict(net);
   CHECK(strict.status == WSK_ERROR_PATCH_FOLDED);
   CHECK(strict.report.curve == 0);
@@ -264,6 +267,8 @@ TEST_CASE("partial: patches that fail are left out and listed") {
   CHECK(b.view.patch_curve_start[1] == 1);
   CHECK(b.view.patch_curves[0] == 0);
   CHECK(b.view.patch_curves[1] == 1);
+  CHECK(b.report.euler_characteristic == 1);  // the curves inside are of one piece with it
+  CHECK(b.greatest_height() == doctest::Approx(0.4).epsilon(0.15));
   for (uint32_t t = 0; t < b.view.triangle_count; ++t) CHECK(b.view.triangle_patch[t] == 1);
   for (uint32_t v = 0; v < b.view.vertex_count; ++v) CHECK(b.view.positions[3 * v] < 5.0);
   Net all;

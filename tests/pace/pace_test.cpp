@@ -67,7 +67,7 @@ std::vector<double> stretches_of_build(const Scene& scene, wsk_method method, st
   return pace.stretches;
 }
 
-std::vector<double> stretches_of_connecting(const Scene& scene, std::string* size) {
+std::vector<double> stretches_of_connecting(const Scene& scene, bool orient, std::string* size) {
   wsk_options options;
   wsk_options_init(&options, sizeof options);
   Pace pace;
@@ -75,6 +75,7 @@ std::vector<double> stretches_of_connecting(const Scene& scene, std::string* siz
   wsk_connect_options how;
   wsk_connect_options_init(&how, sizeof how);
   how.options = &options;
+  how.orient = orient;
   const std::vector<wsk_curve> curves = scenes::curves_of(scene);
   wsk_network* network = nullptr;
   REQUIRE(wsk_connect(curves.data(), curves.size(), &how, &network, nullptr) == WSK_OK);
@@ -84,6 +85,14 @@ std::vector<double> stretches_of_connecting(const Scene& scene, std::string* siz
   *size = std::to_string(view.sample_count) + " samples";
   wsk_network_free(network);
   return pace.stretches;
+}
+
+// A point of a shallow bowl, with its normal or without.
+void add_sample(double x, double y, bool with_normal, scenes::Curve* curve) {
+  const double scale = with_normal ? 1.0 / std::sqrt(x * x + y * y + 1.0) : 0.0;
+  curve->positions.insert(curve->positions.end(), {x, y, 0.5 * (x * x + y * y)});
+  curve->normals.insert(curve->normals.end(), {-scale * x, -scale * y, scale});
+  curve->nodes.push_back(WSK_NONE);
 }
 
 // Stretches(&size): the stretches of one run.
@@ -142,5 +151,42 @@ TEST_CASE("a checkpoint is never far: raw curves of half a million samples that 
     }
     scene.curves.push_back(curve);
   }
-  check_least("lattice", [&](std::string* size) { return stretches_of_connecting(scene, size); });
+  check_least("lattice",
+              [&](std::string* size) { return stretches_of_connecting(scene, false, size); });
+}
+
+TEST_CASE("a checkpoint is never far: one raw curve of nearly a million samples, crossed by a few") {
+  constexpr int k_turns = 60, k_samples = 900000, k_rays = 20, k_samples_of_ray = 500;
+  const double round = 2.0 * std::acos(-1.0);
+  Scene scene;
+  scene.curves.resize(1 + k_rays);
+  for (int i = 0; i < k_samples; ++i) {
+    const double part = i / double{k_samples}, turn = round * k_turns * part;
+    const double radius = 0.3 + 0.7 * part;
+    const bool with_normal = i % 3 != 0 && i / 5000 % 2 == 0;  // some here and there, then none
+    add_sample(radius * std::cos(turn), radius * std::sin(turn), with_normal, &scene.curves[0]);
+  }
+  for (int c = 0; c < k_rays; ++c) {
+    const double turn = round * c / k_rays + 0.01;
+    for (int i = 0; i < k_samples_of_ray; ++i) {
+      const double radius = 0.2 + 0.9 * (i + 0.3) / k_samples_of_ray;
+      add_sample(radius * std::cos(turn), radius * std::sin(turn), true, &scene.curves[c + 1]);
+    }
+  }
+  check_least("spiral",
+              [&](std::string* size) { return stretches_of_connecting(scene, true, size); });
+}
+
+TEST_CASE("a checkpoint is never far: raw segments of two samples, chained to one curve") {
+  constexpr int k_turns = 60, k_segments = 450000;
+  const double round = 2.0 * std::acos(-1.0);
+  Scene scene;
+  scene.curves.resize(k_segments);
+  for (int i = 0; i < 2 * k_segments; ++i) {
+    const double part = (i / 2 + i % 2) / double{k_segments}, turn = round * k_turns * part;
+    const double radius = 0.3 + 0.7 * part;
+    add_sample(radius * std::cos(turn), radius * std::sin(turn), false, &scene.curves[i / 2]);
+  }
+  check_least("segments",
+              [&](std::string* size) { return stretches_of_connecting(scene, true, size); });
 }

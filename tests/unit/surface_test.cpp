@@ -1,4 +1,4 @@
-#include "surface.h"
+#include "surface/from_triangles.h"
 
 #include <doctest/doctest.h>
 
@@ -203,6 +203,47 @@ TEST_CASE("surface: triangles without area are refused before they divide") {
   TriangleInput input(flat);
   for (uint8_t& h : input.held) h = 1;
   CHECK(input.run().code == Code::bad_mesh);
+}
+
+TEST_CASE("surface: a triangle that is all but flat as the caller gives it is no fault of ours") {
+  for (const double height : {1e-12, 1e-15, 1e-100}) {
+    CAPTURE(height);
+    Mesh sheet = grid(5, 5, 1.0);
+    // Its corner at the border, held as that is, drawn to the line between its neighbours.
+    const uint32_t a = sheet.triangle[0], b = sheet.triangle[1], c = sheet.triangle[2];
+    sheet.position[b] = 0.5 * (sheet.position[a] + sheet.position[c]);
+    sheet.position[b].z += height;
+    TriangleInput input(sheet);
+    for (uint8_t& h : input.held) h = 1;
+    for (Vec3& n : input.normal) n = {0, 0, 1};
+    input.held[12] = 0;
+    CHECK(input.run(Method::biharmonic).ok());
+  }
+}
+
+// A tube so long that what spreads from its ends is lost in rounding, and one that is not.
+TEST_CASE("surface: a mesh that smoothing would flatten is refused") {
+  for (const double height : {4.0, 80.0}) {
+    for (const Method method : {Method::biharmonic, Method::triharmonic}) {
+      CAPTURE(height);
+      CAPTURE(static_cast<int>(method));
+      const uint32_t rows = 1 + static_cast<uint32_t>(2.0 * height);
+      TriangleInput input(tube(12, rows, height, false));
+      for (uint32_t v = 0; v < 12 * rows; ++v) {
+        input.held[v] = v < 12 || v >= 12 * (rows - 1);
+        input.normal[v].z = 0.0;
+      }
+      const Status status = input.run(method);
+      if (height < 10.0) {
+        CHECK(status.ok());
+        continue;
+      }
+      CHECK(status.code == Code::not_positive_definite);
+      REQUIRE(status.place.triangle < 24 * (rows - 1));
+      const uint32_t row = input.mesh.triangle[3 * size_t{status.place.triangle}] / 12;
+      CHECK(row > rows / 8);  // inside, not at the end
+    }
+  }
 }
 
 // Scaled to the size of such a network the spacing vanishes, which must not mean the default.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "support/context.h"
+#include "support/killer_adversary.h"
 
 using namespace unit;
 
@@ -62,24 +63,17 @@ TEST_CASE("select: the half, whatever the input, in linear time") {
   }
 }
 
-// M. D. McIlroy, "A Killer Adversary for Quicksort", 1999: see sort_test.cpp.
 TEST_CASE("select: the killer adversary does not make it quadratic") {
-  const uint32_t n = 100000, gas = n;
-  std::vector<uint32_t> value(n, gas), order(n);
-  uint32_t solid = 0, candidate = 0;
-  size_t comparisons = 0;
+  const uint32_t n = 100000;
+  KillerAdversary adversary(n);
+  std::vector<uint32_t> order(n);
   for (uint32_t i = 0; i < n; ++i) order[i] = i;
   Heap heap;
-  must(wireskin::select_least(heap.context, span(order), n / 2, [&](uint32_t a, uint32_t b) {
-    ++comparisons;
-    if (value[a] == gas && value[b] == gas) value[a == candidate ? a : b] = solid++;
-    if (value[a] == gas) candidate = a;
-    if (value[b] == gas) candidate = b;
-    return value[a] < value[b];
-  }));
-  CHECK(comparisons > 50 * size_t{n});  // it has met its match: all pivots were bad
-  CHECK(comparisons < 200 * size_t{n});
-  check_select(value, n / 2);
+  const auto less = [&](uint32_t a, uint32_t b) { return adversary.less(a, b); };
+  must(wireskin::select_least(heap.context, span(order), n / 2, less));
+  CHECK(adversary.comparisons > 50 * size_t{n});  // it has met its match: all pivots were bad
+  CHECK(adversary.comparisons < 200 * size_t{n});
+  check_select(adversary.value, n / 2);
 }
 
 TEST_CASE("select: a long pass asks, and ends where the caller cancels without losing a value") {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "support/context.h"
+#include "support/killer_adversary.h"
 
 using namespace unit;
 
@@ -55,23 +56,16 @@ TEST_CASE("sort in parts: a few values are sorted without asking") {
   }
 }
 
-// M. D. McIlroy, "A Killer Adversary for Quicksort", 1999: see sort_test.cpp.
 TEST_CASE("sort in parts: the killer adversary does not make it quadratic") {
-  const uint32_t n = 100000, gas = n;
-  std::vector<uint32_t> value(n, gas), order(n);
-  uint32_t solid = 0, candidate = 0;
-  size_t comparisons = 0;
+  const uint32_t n = 100000;
+  KillerAdversary adversary(n);
+  std::vector<uint32_t> order(n);
   for (uint32_t i = 0; i < n; ++i) order[i] = i;
   Heap heap;
-  must(wireskin::sort_in_parts(heap.context, span(order), [&](uint32_t a, uint32_t b) {
-    ++comparisons;
-    if (value[a] == gas && value[b] == gas) value[a == candidate ? a : b] = solid++;
-    if (value[a] == gas) candidate = a;
-    if (value[b] == gas) candidate = b;
-    return value[a] < value[b];
-  }));
-  CHECK(comparisons < 12 * 17 * size_t{n});
-  check_sort(value);
+  const auto less = [&](uint32_t a, uint32_t b) { return adversary.less(a, b); };
+  must(wireskin::sort_in_parts(heap.context, span(order), less));
+  CHECK(adversary.comparisons < 12 * 17 * size_t{n});
+  check_sort(adversary.value);
 }
 
 TEST_CASE("sort in parts: ends where the caller cancels, and no value is lost") {

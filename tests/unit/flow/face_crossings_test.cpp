@@ -14,9 +14,7 @@ namespace {
 struct Across : LinesOf {
   CurvesAcross across{heap.context};
 
-  explicit Across(const Net& net) : LinesOf(net) {
-    must(find_curves_across(flow.complex, flow.samples, flow.curves, lines, &across));
-  }
+  explicit Across(const Net& net) : LinesOf(net) { must(find_curves_across(drawing, &across)); }
   FacePlane plane_of(uint32_t t) const {
     const Vec3& at = flow.complex.point[flow.complex.triangle[3 * size_t{t}]];
     return {at, wireskin::unit(cross_of_triangle(flow.complex, t)), 1e-3 * flow.complex.diagonal};
@@ -36,7 +34,7 @@ struct Across : LinesOf {
         within = within && std::fabs(4.0 * flow.complex.point[v[k]].z - height) < 1e-3;
       }
       if (!within) continue;
-      found += is_crossed(flow.complex, lines, plane_of(t), t, t, &across) == crossed;
+      found += is_crossed(drawing, plane_of(t), t, t, &across) == crossed;
     }
     return found;
   }
@@ -67,8 +65,7 @@ TEST_CASE("nothing crosses triangles within a hole, something those that reach o
     }
     if (!inside) continue;
     ++within;
-    CHECK_FALSE(
-        is_crossed(square.flow.complex, square.lines, square.plane_of(t), t, t, &square.across));
+    CHECK_FALSE(is_crossed(square.drawing, square.plane_of(t), t, t, &square.across));
   }
   CHECK(within > 50);
   Net turned = flow_tests::box_with_circles();

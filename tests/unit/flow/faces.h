@@ -10,6 +10,7 @@ namespace unit {
 
 struct LinesOf : FlowOf {
   wireskin::flow::StraightLines lines{heap.context};
+  const wireskin::flow::Drawing drawing{flow.complex, flow.samples, flow.curves, lines};
 
   explicit LinesOf(const flow_tests::Net& net) : FlowOf(net) {
     must(find_straight_lines(flow.complex, flow.samples, &lines));
@@ -20,8 +21,7 @@ struct FacesOf : LinesOf {
   wireskin::flow::FlatFaces faces{heap.context};
 
   explicit FacesOf(const flow_tests::Net& net, double noise = 0.0) : LinesOf(net) {
-    must(find_flat_faces(heap.context, flow.complex, flow.samples, flow.curves, lines, noise,
-                         &faces));
+    must(find_flat_faces(heap.context, drawing, noise, &faces));
   }
 };
 
@@ -42,7 +42,7 @@ struct CellsOf : RimsOf {
   explicit CellsOf(const flow_tests::Net& net) : RimsOf(net) {
     must(find_face_cells(flow.complex, faces, &rims, &cells));
   }
-  void merge() { must(merge_cells(heap.context, flow.samples, lines, faces, &rims, &cells)); }
+  void merge() { must(merge_cells(heap.context, drawing, faces, &rims, &cells)); }
 };
 
 }  // namespace unit

@@ -160,10 +160,11 @@ TEST_CASE(
     "be stopped all the while") {
   FlowOf drawn(hatch(40));
   StraightLines lines(drawn.heap.context);
+  const wireskin::flow::Drawing drawing = {drawn.flow.complex, drawn.flow.samples,
+                                           drawn.flow.curves, lines};
   const auto find = [&](size_t most) {
     FlatFaces faces(drawn.heap.context);
-    must(find_flat_faces(drawn.heap.context, drawn.flow.complex, drawn.flow.samples,
-                         drawn.flow.curves, lines, 0.0, &faces, most));
+    must(find_flat_faces(drawn.heap.context, drawing, 0.0, &faces, most));
     CHECK((!faces.given_up || faces.size() == 0));
     return faces.given_up;
   };

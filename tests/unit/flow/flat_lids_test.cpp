@@ -16,7 +16,7 @@ struct LidsOf : CellsOf {
 
   LidsOf(const Net& net, Lids which) : CellsOf(net) {
     merge();
-    must(find_lids(heap.context, flow.complex, flow.samples, lines, faces, which, &rims, &lids));
+    must(find_lids(heap.context, drawing, faces, which, &rims, &lids));
   }
 };
 

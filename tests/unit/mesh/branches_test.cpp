@@ -121,7 +121,7 @@ TEST_CASE("branches: where what is between the tubes had to be meshed coarser, t
   std::mt19937 random(4);
   const auto uniform = [&random] { return random() / 4294967296.0; };
   int coarse = 0, fine = 0;
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < 8 && (coarse == 0 || fine == 0); ++k) {
     Ends ends;  // three tubes of noisy rims, a few of their edges far shorter than the others
     for (int tube = 0; tube < 3; ++tube) {
       const double a = 2 * k_pi * tube / 3;

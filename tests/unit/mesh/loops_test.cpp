@@ -45,6 +45,20 @@ Circles barrel() {
   return circles;
 }
 
+// No two edges join the same vertices, and all is a sphere with a hole for each loop.
+void check_topology(const Circles& loops, const LoopMesh& mesh) {
+  Heap heap;
+  const uint32_t vertices = static_cast<uint32_t>(loops.position.size() + mesh.inner.size());
+  const int holes = static_cast<int>(loops.start.size() - 1);
+  Array<uint32_t> twins(heap.context);
+  must(mesh::find_twins(vertices, mesh.triangle.span(), &twins));
+  mesh::Topology topology(heap.context);
+  must(mesh::find_topology(vertices, mesh.triangle.span(), twins.span(), &topology));
+  CHECK(topology.components == 1);
+  CHECK(topology.boundary_loops == static_cast<uint32_t>(holes));
+  CHECK(topology.euler_characteristic == 2 - holes);
+}
+
 }  // namespace
 
 TEST_CASE("loops: between two circles lies a cylinder") {
@@ -52,17 +66,9 @@ TEST_CASE("loops: between two circles lies a cylinder") {
   Heap heap;
   LoopMesh result(heap.context);
   must(circles.mesh(heap.context, 0.1, &result));
+  check_topology(circles, result);
   std::vector<Vec3> position = circles.position;
   position.insert(position.end(), result.inner.begin(), result.inner.end());
-  const uint32_t vertices = static_cast<uint32_t>(position.size());
-
-  Array<uint32_t> twins(heap.context);
-  must(mesh::find_twins(vertices, result.triangle.span(), &twins));
-  mesh::Topology topology(heap.context);
-  must(mesh::find_topology(vertices, result.triangle.span(), twins.span(), &topology));
-  CHECK(topology.components == 1);
-  CHECK(topology.boundary_loops == 2);
-  CHECK(topology.euler_characteristic == 0);
 
   double area = 0.0;
   for (size_t t = 0; t < result.triangle.size(); t += 3) {
@@ -87,6 +93,27 @@ TEST_CASE("loops: what is no spacing, or too little to go by, is refused") {
   pair.start = {0, 2, 44};  // the first has two points
   CHECK(pair.mesh(heap.context, 0.1, &result).code == Code::patch_folded);
   CHECK(result.triangle.empty());
+}
+
+// Few vertices far apart: of the triangulations of the vertices alone most have two chords between
+// the same two, one on either side of a loop.
+TEST_CASE("loops: no two edges join the same vertices, however few of these there are") {
+  Random random(7);
+  for (int pair = 0; pair < 300; ++pair) {
+    CAPTURE(pair);
+    Circles loops;
+    for (int l = 0; l < 2; ++l) {
+      const double radius = l == 0 ? 1.0 : std::pow(0.5, random.below(7));
+      const double x = random(), z = random();
+      const uint32_t count = 3 + random.below(3);
+      loops.add(x, radius, z, count, random.below(2) != 0);
+    }
+    for (Vec3& p : loops.position) p = p + Vec3{0.1 * random(), 0.1 * random(), 0.1 * random()};
+    Heap heap;
+    LoopMesh result(heap.context);
+    must(loops.mesh(heap.context, 10.0, &result));
+    check_topology(loops, result);
+  }
 }
 
 TEST_CASE("loops: three borders, and whatever fails there") {

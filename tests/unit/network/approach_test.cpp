@@ -105,7 +105,9 @@ TEST_CASE("random segments against brute force") {
         const Vec3 q = net.wires.position[2 * k], e = net.wires.position[2 * k + 1] - q;
         double least = 1e9;  // convex in both parameters: alternate
         double s = 0.5, t = 0.5;
-        for (int step = 0; step < 2000; ++step) {
+        double before = -1.0;
+        for (int step = 0; step < 2000 && s != before; ++step) {
+          before = s;
           t = std::clamp(dot(p + s * d - q, e) / dot(e, e), 0.0, 1.0);
           s = std::clamp(dot(q + t * e - p, d) / dot(d, d), 0.0, 1.0);
         }

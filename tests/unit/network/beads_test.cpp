@@ -2,6 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
 #include "support/strung_beads.h"
 
 using namespace wireskin;
@@ -24,6 +29,68 @@ TEST_CASE(
   const BeadPlace place = net.beads.locate({1, 0.5});
   CHECK(place.bead == early);
   CHECK(place.behind == doctest::Approx(0.25));
+}
+
+namespace {
+
+// Beads made on one edge, one after the other at these parts of it: each stands in the order of the
+// edge and is found there.
+struct Crowd : StrungBeads {
+  size_t count;
+
+  explicit Crowd(const std::vector<double>& parts) : count(parts.size()) {
+    add(line({0, 0, 0}, {1, 0, 0}, 1));
+    string(count);
+    std::vector<std::pair<double, uint32_t>> made;
+    for (const double part : parts) made.push_back({part, beads.make_bead({0, part})});
+    std::sort(made.begin(), made.end());
+    uint32_t before = 0;
+    for (const auto& [part, b] : made) {
+      REQUIRE(beads.locate({0, std::nextafter(part, 0.0)}).bead == before);
+      REQUIRE(beads.locate({0, part}).bead == b);
+      REQUIRE(beads.bead[before].next == b);
+      before = b;
+    }
+    CHECK(beads.bead[before].next == 1);
+  }
+  // How many beads are passed at most on the way to one.
+  uint32_t longest_way() const {
+    uint32_t longest = 0;
+    size_t seen = 0;
+    std::vector<std::pair<uint32_t, uint32_t>> todo = {{beads.bead[0].upper, 1}};
+    while (!todo.empty()) {
+      const auto [b, depth] = todo.back();
+      todo.pop_back();
+      if (b == k_none) continue;
+      ++seen;
+      longest = std::max(longest, depth);
+      todo.push_back({beads.bead[b].lower, depth + 1});
+      todo.push_back({beads.bead[b].upper, depth + 1});
+    }
+    CHECK(seen == count);
+    return longest;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("beads of an edge are found without passing the others, whatever order they came in") {
+  // Ever nearer to an end or to a place between, each far enough from the last for its own bead.
+  std::vector<double> ascending, descending, inward, halving;
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 10000; ++i) {
+    const double step = 1.0 / 512.0, left = std::pow(1.0 - step, i);
+    ascending.push_back(1.0 - left * (1.0 - step));
+    descending.push_back(left * (1.0 - step));
+    (i % 2 == 0 ? low : high) += (i % 2 == 0 ? step : -step) * (high - low);
+    inward.push_back(i % 2 == 0 ? low : high);
+  }
+  for (uint32_t gaps = 1; gaps < (1u << 17); gaps *= 2) {
+    for (uint32_t i = 0; i < gaps; ++i) halving.push_back((i + 0.5) / gaps);
+  }
+  for (const auto& parts : {ascending, descending, inward, halving}) {
+    CHECK(Crowd(parts).longest_way() < 60);  // twice the natural logarithm is about the mean
+  }
 }
 
 TEST_CASE("the nearest special bead: an end within its reach, a node within its own, else none") {

@@ -24,7 +24,9 @@ struct Bent {
   }
   void run(bool closed) {
     const double whole = arc.back() + (closed ? arc[1] : 0.0);
-    bend_curve({view(arc), whole, closed, view(pinned), unit::span(shift)});
+    Heap heap;
+    Pace pace(heap.context);
+    must(bend_curve({view(arc), whole, closed, view(pinned), unit::span(shift)}, &pace));
   }
   // The greatest change of direction that the displacement makes of a straight line, in radians.
   double steepest() const {
