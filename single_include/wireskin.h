@@ -382,8 +382,8 @@ typedef struct wsk_report {
   wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
   uint32_t failed_patches; /* left out because of wsk_options.partial */
   /* Patches, of several loops or of one, that might as well have been joined otherwise, or closed
-     each alone: the other choice had less than a tenth more area, or the evidence of their normals for this one
-     was next to none. WSK_NONE where there is no first one. */
+     each alone: the other choice had less than a tenth more area, or the evidence of their normals
+     for this one was next to none. WSK_NONE where there is no first one. */
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
   uint32_t found_borders; /* outsides that were left open because of wsk_options.find_borders */
@@ -583,9 +583,11 @@ typedef struct wsk_connect_options {
 
   /* How far apart, in your units, curves may be that are meant to meet. Negative: only what
      coincides is joined. 0 (the default): the median distance of neighbouring samples, at most a
-     hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused, and
-     what brings more places near each other than 16 for each sample and one for each pair of
-     curves, of pairs at most 262144. */
+     hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused,
+     and what brings more places near each other than 16 for each sample and one for each pair of
+     curves, of pairs at most 262144, or covers so many samples that more than 2^26 pairs of edges
+     are that near, or that the curves have more than 2^26 samples, each counted for every such place
+     that it is near to. */
   double snap;
   wsk_chain chain;
   /* A turn by more than this is a corner: curves are not chained through it. 0 (the default): 60
@@ -4321,8 +4323,9 @@ Status reconcile_normals(Span<const uint8_t> joined, Wires* wires,
 /* In: curves. Out: pairs of places with their distance. Edges are found by a tree of boxes, */
 /* compared as straight lines, and the places then refined on local cubics, because between coarse */
 /* samples curves that meet pass each other's chords at the height of the arc. O(n log n) for n */
-/* samples, and the pairs of edges whose boxes meet; fails with bad_argument where more places are */
-/* within reach than 16 for each sample and one for each pair of curves, of these at most 262144. */
+/* samples, and the pairs of edges whose boxes meet. Fails with bad_argument where more places are */
+/* within reach than 16 for each sample and one for each pair of curves, of these at most 262144; or */
+/* more than 2^26 pairs of edges. */
 
 namespace wireskin::network {
 
@@ -4365,7 +4368,8 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
 /* where the curves were in different components, or cross: at a quarter of the tolerance, or at a */
 /* hundredth in a network that is complete; of exact curves every crossing gets its point, and those */
 /* side by side are joined only where nothing else joins their components. Out: the curves, bent */
-/* (network/write_beads.h); the joints. Cost: the approaches', and a search within four tolerances. */
+/* (network/write_beads.h); the joints. Cost: the approaches', */
+/* and for each a search within four tolerances; fails with bad_argument where that is too much. */
 
 namespace wireskin::network {
 
@@ -7823,7 +7827,7 @@ Status check_border_size(const Border& border, double spacing);
 /* curves are (of those drawn on a surface at least three quarters of the gaps are next to nothing); */
 /* and the pass of each approach. Of exact curves, ends that clearly meet a curve are settled first, */
 /* or crossings near them would take them away, and curves side by side come last. Of others what is */
-/* nearest is what is likeliest: one pass. O(approaches). */
+/* nearest is what is likeliest: one pass. O(approaches and the samples within reach of each). */
 
 namespace wireskin::network {
 
@@ -7845,11 +7849,30 @@ struct SnapPlan {
 };
 
 /* `complete`: nothing dangles, all is one component; such curves are never taken as exact. */
+/* `walk`: of each sample (network/snap_walk.h). */
 Status plan_snaps(const Beads& beads, double tolerance, bool complete,
-                  Span<const Approach> approaches, SnapPlan* plan);
+                  Span<const Approach> approaches, Span<const uint32_t> walk, SnapPlan* plan);
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/snap_order.h ======== */
+
+/* ======== begin src/network/snap_walk.h ======== */
+/* What it costs to look round from places on curves. */
+/* */
+/* In: curves and how far a walk goes along them. Out: how many samples it passes from each sample, */
+/* both ways, not across the first one of a closed curve. Of what snapping takes: refused with */
+/* bad_argument where its walks pass more than 2^26 samples, as with a tolerance of a thousand */
+/* samples on curves that come near each other thousands of times. O(n). */
+
+namespace wireskin::network {
+
+Status count_walks(const Wires& wires, double reach, Array<uint32_t>* walk);
+
+/* `walk`: of each sample. */
+Status check_walks(Span<const Approach> approaches, Span<const uint32_t> walk, Context& context);
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/snap_walk.h ======== */
 
 /* ======== begin src/network/write_beads.h ======== */
 /* Strings of beads as curves again, once places on them were made one point. */
@@ -19064,6 +19087,13 @@ struct EdgeSet {
     return nearest_of_chords(wires.position[a], wires.position[next(a)], wires.position[b],
                              wires.position[next(b)]);
   }
+  /* Whether all of edge b lies beyond the end of edge a, where another edge begins, to which that */
+  /* end belongs. So lie most edges of a curve to each other, and of curves side by side. */
+  bool lies_beyond(uint32_t a, uint32_t b) const {
+    const Vec3 end = wires.position[next(a)], along = end - wires.position[a];
+    return dot(wires.position[b] - end, along) > 0.0 &&
+           dot(wires.position[next(b)] - end, along) > 0.0 && next(next(a)) != k_none;
+  }
   bool share_a_sample(uint32_t a, uint32_t b) const {
     return a == b || next(a) == b || next(b) == a || next(a) == next(b);
   }
@@ -19148,6 +19178,7 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
                            uint32_t b, Array<Approach>* approaches) {
   const Wires& wires = edges.wires;
   if (edges.share_a_sample(a, b)) return {};
+  if (edges.lies_beyond(a, b) || edges.lies_beyond(b, a)) return {};
   ChordApproach chords = edges.chords(a, b);
   if (!(chords.distance <= reach + bulge[a] + bulge[b])) return {};
   /* The sample between two edges belongs to the later one. */
@@ -19164,6 +19195,9 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
   found.distance = length(found.at_a - found.at_b);
   return approaches->push(found);
 }
+
+/* Sixty within reach of each edge of a curve of a million samples. */
+static constexpr uint64_t k_most_pairs = 1u << 26;
 
 /* Drawings have less than one for a sample, with every line drawn many times a few. All lines of a */
 /* lattice cross, however few their samples; but thousands of curves that all come near each other */
@@ -19211,10 +19245,16 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
   }));
   TRY(tree.build(box.span()));
   const size_t most = most_approaches(wires);
+  uint64_t pairs = 0;
   Pace pace(context);
   for (uint32_t e = 0; e < box.size(); ++e) {
     TRY(tree.find(box[e], e, &near));
     TRY(pace.after(k_steps_of_search));
+    pairs += near.size();
+    if (pairs > k_most_pairs) {
+      return fail(Code::bad_argument,
+                  "the snapping tolerance covers too many samples: give a smaller one");
+    }
     TRY(make_room_in_parts(near.size(), approaches));
     for (const uint32_t other : near) {
       TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));
@@ -19257,6 +19297,7 @@ class Snapper {
       : tolerance_(tolerance),
         beads_(*beads),
         component_(beads->context()),
+        walk_(beads->context()),
         best_(beads->context()),
         stamp_(beads->context()),
         queue_(beads->context()) {}
@@ -19285,6 +19326,7 @@ class Snapper {
   bool exact_ = false;  /* most gaps are next to nothing */
   bool complete_ = false;
   Array<uint32_t> component_;  /* of each curve, before snapping */
+  Array<uint32_t> walk_;       /* of each sample (network/snap_walk.h) */
   /* The search for connections: distances that hold where the stamp is the current one. */
   Array<double> best_;
   Array<uint32_t> stamp_;
@@ -19442,7 +19484,8 @@ Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
       TRY(pace.after());
       if (plan.pass[k] != now) continue;
       TRY(join(approaches[k], plan.beside[k] != 0, result));
-      TRY(pace.after(k_steps_of_join));
+      const Approach& joined = approaches[k];
+      TRY(pace.after(k_steps_of_join + walk_[joined.a.edge] + walk_[joined.b.edge]));
     }
   }
   return {};
@@ -19491,11 +19534,13 @@ Status Snapper::run(SnapResult* result) {
     return p.a.part != q.a.part ? p.a.part < q.a.part : p.b.part < q.b.part;
   };
   TRY(sort_in_parts(context(), approaches.span(), nearer));
+  TRY(count_walks(wires(), tolerance_, &walk_));
+  TRY(check_walks(approaches.span(), walk_.span(), context()));
   TRY(beads_.string_samples(approaches.size()));
   TRY(assign_in_parts(beads_.room(), 0.0, &best_));
   TRY(assign_in_parts(beads_.room(), 0, &stamp_));
   SnapPlan plan(context());
-  TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), &plan));
+  TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), walk_.span(), &plan));
   TRY(count_open(approaches.span(), plan.beside.span(), &result->open_before));
   exact_ = plan.exact;
   TRY(join_all(approaches.span(), plan, result));
@@ -32972,11 +33017,13 @@ static bool is_beside(const Beads& beads, const Approach& approach) {
 }
 
 Status plan_snaps(const Beads& beads, double tolerance, bool complete,
-                  Span<const Approach> approaches, SnapPlan* plan) {
+                  Span<const Approach> approaches, Span<const uint32_t> walk, SnapPlan* plan) {
+  constexpr size_t k_steps_of_contact = 4;
   Array<Branch> branches(beads.context());
   TRY(plan->pass.resize(approaches.size()));
   TRY(assign_in_parts(approaches.size(), 0, &plan->beside));
   size_t others = 0, exact = 0;
+  Pace pace(beads.context());
   for (size_t k = 0; k < approaches.size(); ++k) {
     const Approach& approach = approaches[k];
     const bool touches = approach.distance <= k_exact * tolerance;
@@ -32989,7 +33036,7 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
     plan->beside[k] = (contact != Contact::meets || beside) && !points;
     others += !beside;
     exact += touches;
-    if (k % 1024 == 1023) TRY(beads.context().checkpoint());
+    TRY(pace.after(k_steps_of_contact + walk[approach.a.edge] + walk[approach.b.edge]));
   }
   plan->exact = !complete && 4 * exact >= 3 * others;
   if (plan->exact) return {};
@@ -32998,6 +33045,44 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
 
 }  /* namespace wireskin::network */
 /* ======== end src/network/snap_order.cpp ======== */
+
+/* ======== begin src/network/snap_walk.cpp ======== */
+namespace wireskin::network {
+
+Status count_walks(const Wires& wires, double reach, Array<uint32_t>* walk) {
+  TRY(assign_in_parts(wires.samples(), 0, walk));
+  Pace pace(wires.position.context());
+  for (uint32_t c = 0; c < wires.curves(); ++c) {
+    const uint32_t end = wires.start[c + 1];
+    uint32_t first = wires.start[c];  /* within reach of i */
+    double arc = 0.0;                 /* from there to i */
+    for (uint32_t i = first; i < end; ++i) {
+      TRY(pace.after());
+      if (i > first) arc += length(wires.position[i] - wires.position[i - 1]);
+      for (; arc > reach && first < i; ++first) {
+        arc -= length(wires.position[first + 1] - wires.position[first]);
+        (*walk)[first] += i - 1 - first;
+      }
+      (*walk)[i] = i - first;
+    }
+    for (; first < end; ++first) (*walk)[first] += end - 1 - first;
+  }
+  return {};
+}
+
+Status check_walks(Span<const Approach> approaches, Span<const uint32_t> walk, Context& context) {
+  constexpr uint64_t k_most = 1u << 26;
+  uint64_t sum = 0;
+  TRY(in_parts(context, approaches.size(), [&](size_t k) {
+    sum += uint64_t{walk[approaches[k].a.edge]} + walk[approaches[k].b.edge];
+  }));
+  if (sum <= k_most) return {};
+  return fail(Code::bad_argument,
+              "the snapping tolerance covers too many samples: give a smaller one");
+}
+
+}  /* namespace wireskin::network */
+/* ======== end src/network/snap_walk.cpp ======== */
 
 /* ======== begin src/network/write_beads.cpp ======== */
 namespace wireskin::network {

@@ -376,8 +376,8 @@ typedef struct wsk_report {
   wsk_solver solver;       /* how the largest systems were solved; the memory cap decides */
   uint32_t failed_patches; /* left out because of wsk_options.partial */
   /* Patches, of several loops or of one, that might as well have been joined otherwise, or closed
-     each alone: the other choice had less than a tenth more area, or the evidence of their normals for this one
-     was next to none. WSK_NONE where there is no first one. */
+     each alone: the other choice had less than a tenth more area, or the evidence of their normals
+     for this one was next to none. WSK_NONE where there is no first one. */
   uint32_t ambiguous_patches;
   uint32_t first_ambiguous_patch;
   uint32_t found_borders; /* outsides that were left open because of wsk_options.find_borders */
@@ -577,9 +577,11 @@ typedef struct wsk_connect_options {
 
   /* How far apart, in your units, curves may be that are meant to meet. Negative: only what
      coincides is joined. 0 (the default): the median distance of neighbouring samples, at most a
-     hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused, and
-     what brings more places near each other than 16 for each sample and one for each pair of
-     curves, of pairs at most 262144. */
+     hundredth of the diagonal of the bounding box. More than a tenth of the diagonal is refused,
+     and what brings more places near each other than 16 for each sample and one for each pair of
+     curves, of pairs at most 262144, or covers so many samples that more than 2^26 pairs of edges
+     are that near, or that the curves have more than 2^26 samples, each counted for every such place
+     that it is near to. */
   double snap;
   wsk_chain chain;
   /* A turn by more than this is a corner: curves are not chained through it. 0 (the default): 60

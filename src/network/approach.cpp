@@ -96,6 +96,13 @@ struct EdgeSet {
     return nearest_of_chords(wires.position[a], wires.position[next(a)], wires.position[b],
                              wires.position[next(b)]);
   }
+  // Whether all of edge b lies beyond the end of edge a, where another edge begins, to which that
+  // end belongs. So lie most edges of a curve to each other, and of curves side by side.
+  bool lies_beyond(uint32_t a, uint32_t b) const {
+    const Vec3 end = wires.position[next(a)], along = end - wires.position[a];
+    return dot(wires.position[b] - end, along) > 0.0 &&
+           dot(wires.position[next(b)] - end, along) > 0.0 && next(next(a)) != k_none;
+  }
   bool share_a_sample(uint32_t a, uint32_t b) const {
     return a == b || next(a) == b || next(b) == a || next(a) == next(b);
   }
@@ -180,6 +187,7 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
                            uint32_t b, Array<Approach>* approaches) {
   const Wires& wires = edges.wires;
   if (edges.share_a_sample(a, b)) return {};
+  if (edges.lies_beyond(a, b) || edges.lies_beyond(b, a)) return {};
   ChordApproach chords = edges.chords(a, b);
   if (!(chords.distance <= reach + bulge[a] + bulge[b])) return {};
   // The sample between two edges belongs to the later one.
@@ -196,6 +204,9 @@ static Status compare_pair(const EdgeSet& edges, Span<const double> bulge, doubl
   found.distance = length(found.at_a - found.at_b);
   return approaches->push(found);
 }
+
+// Sixty within reach of each edge of a curve of a million samples.
+static constexpr uint64_t k_most_pairs = 1u << 26;
 
 // Drawings have less than one for a sample, with every line drawn many times a few. All lines of a
 // lattice cross, however few their samples; but thousands of curves that all come near each other
@@ -243,10 +254,16 @@ Status find_approaches(const Wires& wires, Span<const uint32_t> curve, double re
   }));
   TRY(tree.build(box.span()));
   const size_t most = most_approaches(wires);
+  uint64_t pairs = 0;
   Pace pace(context);
   for (uint32_t e = 0; e < box.size(); ++e) {
     TRY(tree.find(box[e], e, &near));
     TRY(pace.after(k_steps_of_search));
+    pairs += near.size();
+    if (pairs > k_most_pairs) {
+      return fail(Code::bad_argument,
+                  "the snapping tolerance covers too many samples: give a smaller one");
+    }
     TRY(make_room_in_parts(near.size(), approaches));
     for (const uint32_t other : near) {
       TRY(compare_pair(edges, bulge.span(), reach, sample[e], sample[other], approaches));

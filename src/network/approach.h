@@ -4,8 +4,9 @@
 // In: curves. Out: pairs of places with their distance. Edges are found by a tree of boxes,
 // compared as straight lines, and the places then refined on local cubics, because between coarse
 // samples curves that meet pass each other's chords at the height of the arc. O(n log n) for n
-// samples, and the pairs of edges whose boxes meet; fails with bad_argument where more places are
-// within reach than 16 for each sample and one for each pair of curves, of these at most 262144.
+// samples, and the pairs of edges whose boxes meet. Fails with bad_argument where more places are
+// within reach than 16 for each sample and one for each pair of curves, of these at most 262144; or
+// more than 2^26 pairs of edges.
 #pragma once
 
 #include "network/wires.h"

@@ -3,6 +3,7 @@
 #include "base/in_parts.h"
 #include "base/sort_in_parts.h"
 #include "network/snap_order.h"
+#include "network/snap_walk.h"
 #include "network/write_beads.h"
 
 namespace wireskin::network {
@@ -29,6 +30,7 @@ class Snapper {
       : tolerance_(tolerance),
         beads_(*beads),
         component_(beads->context()),
+        walk_(beads->context()),
         best_(beads->context()),
         stamp_(beads->context()),
         queue_(beads->context()) {}
@@ -57,6 +59,7 @@ class Snapper {
   bool exact_ = false;  // most gaps are next to nothing
   bool complete_ = false;
   Array<uint32_t> component_;  // of each curve, before snapping
+  Array<uint32_t> walk_;       // of each sample (network/snap_walk.h)
   // The search for connections: distances that hold where the stamp is the current one.
   Array<double> best_;
   Array<uint32_t> stamp_;
@@ -214,7 +217,8 @@ Status Snapper::join_all(Span<const Approach> approaches, const SnapPlan& plan,
       TRY(pace.after());
       if (plan.pass[k] != now) continue;
       TRY(join(approaches[k], plan.beside[k] != 0, result));
-      TRY(pace.after(k_steps_of_join));
+      const Approach& joined = approaches[k];
+      TRY(pace.after(k_steps_of_join + walk_[joined.a.edge] + walk_[joined.b.edge]));
     }
   }
   return {};
@@ -263,11 +267,13 @@ Status Snapper::run(SnapResult* result) {
     return p.a.part != q.a.part ? p.a.part < q.a.part : p.b.part < q.b.part;
   };
   TRY(sort_in_parts(context(), approaches.span(), nearer));
+  TRY(count_walks(wires(), tolerance_, &walk_));
+  TRY(check_walks(approaches.span(), walk_.span(), context()));
   TRY(beads_.string_samples(approaches.size()));
   TRY(assign_in_parts(beads_.room(), 0.0, &best_));
   TRY(assign_in_parts(beads_.room(), 0, &stamp_));
   SnapPlan plan(context());
-  TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), &plan));
+  TRY(plan_snaps(beads_, tolerance_, complete_, approaches.span(), walk_.span(), &plan));
   TRY(count_open(approaches.span(), plan.beside.span(), &result->open_before));
   exact_ = plan.exact;
   TRY(join_all(approaches.span(), plan, result));

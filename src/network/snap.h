@@ -8,7 +8,8 @@
 // where the curves were in different components, or cross: at a quarter of the tolerance, or at a
 // hundredth in a network that is complete; of exact curves every crossing gets its point, and those
 // side by side are joined only where nothing else joins their components. Out: the curves, bent
-// (network/write_beads.h); the joints. Cost: the approaches', and a search within four tolerances.
+// (network/write_beads.h); the joints. Cost: the approaches',
+// and for each a search within four tolerances; fails with bad_argument where that is too much.
 #pragma once
 
 #include "network/approach.h"

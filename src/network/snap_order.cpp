@@ -35,11 +35,13 @@ static bool is_beside(const Beads& beads, const Approach& approach) {
 }
 
 Status plan_snaps(const Beads& beads, double tolerance, bool complete,
-                  Span<const Approach> approaches, SnapPlan* plan) {
+                  Span<const Approach> approaches, Span<const uint32_t> walk, SnapPlan* plan) {
+  constexpr size_t k_steps_of_contact = 4;
   Array<Branch> branches(beads.context());
   TRY(plan->pass.resize(approaches.size()));
   TRY(assign_in_parts(approaches.size(), 0, &plan->beside));
   size_t others = 0, exact = 0;
+  Pace pace(beads.context());
   for (size_t k = 0; k < approaches.size(); ++k) {
     const Approach& approach = approaches[k];
     const bool touches = approach.distance <= k_exact * tolerance;
@@ -52,7 +54,7 @@ Status plan_snaps(const Beads& beads, double tolerance, bool complete,
     plan->beside[k] = (contact != Contact::meets || beside) && !points;
     others += !beside;
     exact += touches;
-    if (k % 1024 == 1023) TRY(beads.context().checkpoint());
+    TRY(pace.after(k_steps_of_contact + walk[approach.a.edge] + walk[approach.b.edge]));
   }
   plan->exact = !complete && 4 * exact >= 3 * others;
   if (plan->exact) return {};

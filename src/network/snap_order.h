@@ -5,7 +5,7 @@
 // curves are (of those drawn on a surface at least three quarters of the gaps are next to nothing);
 // and the pass of each approach. Of exact curves, ends that clearly meet a curve are settled first,
 // or crossings near them would take them away, and curves side by side come last. Of others what is
-// nearest is what is likeliest: one pass. O(approaches).
+// nearest is what is likeliest: one pass. O(approaches and the samples within reach of each).
 #pragma once
 
 #include "network/crossing.h"
@@ -30,7 +30,8 @@ struct SnapPlan {
 };
 
 // `complete`: nothing dangles, all is one component; such curves are never taken as exact.
+// `walk`: of each sample (network/snap_walk.h).
 Status plan_snaps(const Beads& beads, double tolerance, bool complete,
-                  Span<const Approach> approaches, SnapPlan* plan);
+                  Span<const Approach> approaches, Span<const uint32_t> walk, SnapPlan* plan);
 
 }  // namespace wireskin::network

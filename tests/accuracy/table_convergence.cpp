@@ -50,8 +50,10 @@ void refine(Page& page, Bounds& bounds, const Case& c, double start, const Metho
     const double rms = distance_error(result, c.truth).rms;
     cells.push_back(text("%.2e", rms));
     if (!last.positions.empty()) {
-      const Error step = between_levels(last, result);
-      steps.push_back(text("%.1e / %.1e", step.rms, step.max));
+      if (!bounds.alone()) {
+        const Error step = between_levels(last, result);
+        steps.push_back(text("%.1e / %.1e", step.rms, step.max));
+      }
       if (m.method == WSK_METHOD_FAIR) {
         bounds.at_most(c.name + text(", growth at level %d", level), rms / last_rms, 1.2);
       }

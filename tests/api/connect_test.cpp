@@ -310,6 +310,27 @@ TEST_CASE(
   CHECK(std::string(run.report.sentence).find("too many places") != std::string::npos);
 }
 
+TEST_CASE("a tolerance that covers hundreds of samples of a noisy curve is refused at once") {
+  constexpr int k_samples = 20000;
+  std::mt19937 random(1);
+  Scene scene;
+  scene.curves.resize(1);
+  Curve& curve = scene.curves[0];
+  for (int i = 0; i < k_samples; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double noise = random() / 2147483648.0 - 1.0;
+      curve.positions.push_back((k == 0 ? double(i) / k_samples : 0.0) + 1e-4 * noise);
+    }
+  }
+  curve.nodes.assign(k_samples, WSK_NONE);
+  Run run;
+  run.snap = 0.01;
+  CHECK(run(scenes::curves_of(scene)) == WSK_ERROR_BAD_ARGUMENT);
+  CHECK(std::string(run.report.sentence).find("covers too many samples") != std::string::npos);
+  run.snap = 0.0002;
+  CHECK(run(scenes::curves_of(scene)) == WSK_OK);
+}
+
 TEST_CASE("degenerate curves are passed on, whatever they are") {
   const double points[] = {0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 0};
   for (size_t count = 1; count <= 6; ++count) {

@@ -343,7 +343,7 @@ TEST_CASE("long loops cost no more than their points") {
 
 TEST_CASE("random loops on a sphere") {
 #ifdef WIRESKIN_TESTS_SANITIZED
-  constexpr int k_rounds = 20;
+  constexpr int k_rounds = 10;
 #else
   constexpr int k_rounds = 40;
 #endif

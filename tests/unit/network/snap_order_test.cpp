@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "network/snap_walk.h"
 #include "support/strung_beads.h"
 
 using namespace wireskin;
@@ -17,8 +18,10 @@ struct Planned : StrungBeads {
   void plan(double tolerance, bool complete = false) {
     string(0);
     Array<Approach> approaches(heap.context);
+    Array<uint32_t> walk(heap.context);
     must(find_approaches(wires, beads.curve.span(), tolerance, &approaches));
-    must(plan_snaps(beads, tolerance, complete, approaches.span(), &snaps));
+    must(count_walks(wires, tolerance, &walk));
+    must(plan_snaps(beads, tolerance, complete, approaches.span(), walk.span(), &snaps));
   }
   uint32_t count(SnapPass pass) const {
     uint32_t found = 0;
