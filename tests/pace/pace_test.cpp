@@ -155,7 +155,8 @@ TEST_CASE("a checkpoint is never far: raw curves of half a million samples that 
               [&](std::string* size) { return stretches_of_connecting(scene, false, size); });
 }
 
-TEST_CASE("a checkpoint is never far: one raw curve of nearly a million samples, crossed by a few") {
+TEST_CASE(
+    "a checkpoint is never far: one raw curve of nearly a million samples, crossed by a few") {
   constexpr int k_turns = 60, k_samples = 900000, k_rays = 20, k_samples_of_ray = 500;
   const double round = 2.0 * std::acos(-1.0);
   Scene scene;
@@ -189,4 +190,53 @@ TEST_CASE("a checkpoint is never far: raw segments of two samples, chained to on
   }
   check_least("segments",
               [&](std::string* size) { return stretches_of_connecting(scene, true, size); });
+}
+
+TEST_CASE("a checkpoint is never far: a million samples of sensor curves") {
+  constexpr int k_circles = 10, k_samples = 100000;  // round a sphere, through its poles
+  const double round = 2.0 * std::acos(-1.0);
+  Scene scene;
+  scene.name = "sensors";
+  scene.way = scenes::Way::integrate;
+  scene.spacing = 0.1;
+  scene.sensors.resize(k_circles);
+  for (int c = 0; c < k_circles; ++c) {
+    scenes::SensorCurve& sensor = scene.sensors[c];
+    const double turn = 0.5 * round * c / k_circles;
+    for (int i = 0; i <= k_samples; ++i) {
+      const double arc = round * i / k_samples, ahead = arc + 0.25 * round;
+      const auto add = [&](double along, std::vector<double>* to) {
+        to->insert(to->end(), {std::sin(along) * std::cos(turn), std::sin(along) * std::sin(turn),
+                               std::cos(along)});
+      };
+      sensor.arc_lengths.push_back(arc);
+      add(ahead, &sensor.tangents);
+      add(arc, &sensor.rest.normals);
+      const int pole = i % k_samples == 0 ? 0 : i == k_samples / 2 ? 1 : -1;
+      sensor.rest.nodes.push_back(pole < 0 ? WSK_NONE : static_cast<uint32_t>(pole));
+    }
+    sensor.rest.closed = true;
+  }
+  check_pace(scene, WSK_METHOD_STANKO);
+}
+
+TEST_CASE("a checkpoint is never far: a mesh of the caller's with sixty thousand vertices") {
+  constexpr int k_cells = 250, k_between = 50;  // of held lines
+  Scene scene;
+  scene.name = "mesh";
+  scene.way = scenes::Way::smooth_mesh;
+  for (int j = 0; j <= k_cells; ++j) {
+    for (int i = 0; i <= k_cells; ++i) {
+      const double u = 2.0 * i / k_cells - 1.0, v = 2.0 * j / k_cells - 1.0;
+      const bool held = j % k_cells == 0 || i % k_between == 0;
+      const double height = 0.5 * (u * u - v * v);
+      scene.positions.insert(scene.positions.end(), {u, v, held ? height : 0.9 * height});
+      scene.normals.insert(scene.normals.end(), {-u, v, 1.0});
+      scene.constrained.push_back(held);
+      if (i == k_cells || j == k_cells) continue;
+      const uint32_t a = static_cast<uint32_t>(j * (k_cells + 1) + i), above = a + k_cells + 1;
+      scene.triangles.insert(scene.triangles.end(), {a, a + 1, above + 1, a, above + 1, above});
+    }
+  }
+  for (const wsk_method method : {WSK_METHOD_STANKO, WSK_METHOD_FAIR}) check_pace(scene, method);
 }
