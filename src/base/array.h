@@ -89,7 +89,7 @@ class Array {
 
   Status assign(size_t size, const T& value) {
     const T kept = value;  // as in push()
-    TRY(resize_anew(size));
+    TRY(resize(size));
     for (size_t i = 0; i < size; ++i) data_[i] = kept;
     return {};
   }
