@@ -14196,14 +14196,18 @@ static Status join_numbers(Context& context, const Polylines& curves, double tol
   };
   Array<Numbered> order(context);
   TRY(order.reserve(curves.number.size()));
-  for (uint32_t s = 0; s < curves.number.size(); ++s) {
-    if (curves.number[s] != k_none) order.push_reserved({curves.number[s], s});
-  }
-  sort(order.span(), [](const Numbered& a, const Numbered& b) {
+  TRY(in_parts(context, curves.number.size(), [&](size_t s) {
+    if (curves.number[s] != k_none) {
+      order.push_reserved({curves.number[s], static_cast<uint32_t>(s)});
+    }
+  }));
+  TRY(sort_in_parts(context, order.span(), [](const Numbered& a, const Numbered& b) {
     return a.number != b.number ? a.number < b.number : a.sample < b.sample;
-  });
+  }));
   uint32_t first = 0;
+  Pace pace(context);
   for (uint32_t i = 1; i < order.size(); ++i) {
+    TRY(pace.after());
     if (order[i].number != order[first].number) {
       first = i;
       continue;
@@ -14243,59 +14247,64 @@ static Status find_vertices(Context& context, const Polylines& curves, Arcs* arc
   TRY(parent.resize(n));
   TRY(arcs->sample_vertex.resize(n));
   TRY(arcs->vertex.reserve(n));
-  for (uint32_t s = 0; s < n; ++s) parent[s] = s;
+  TRY(in_parts(context, n, [&](size_t s) { parent[s] = static_cast<uint32_t>(s); }));
   TRY(join_numbers(context, curves, tolerance, parent.span()));
   TRY(join_coinciding(context, curves.position, tolerance, parent.span()));
-  for (uint32_t s = 0; s < n; ++s) {
-    const uint32_t root = root_of(parent.span(), s);
+  return in_parts(context, n, [&](size_t i) {
+    const uint32_t s = static_cast<uint32_t>(i), root = root_of(parent.span(), s);
     if (root == s) {
       arcs->sample_vertex[s] = static_cast<uint32_t>(arcs->vertex.size());
       arcs->vertex.push_reserved(curves.position[s]);
     } else {
       arcs->sample_vertex[s] = arcs->sample_vertex[root];
     }
-  }
-  return {};
+  });
 }
 
 /* The segments, each once. */
 static Status gather_edges(const Polylines& curves, const Arcs& arcs, Array<ArcEdge>* edges) {
+  Context& context = edges->context();
+  Pace pace(context);
   TRY(edges->reserve(curves.position.size()));
   for (uint32_t c = 0; c + 1 < curves.start.size(); ++c) {
     const uint32_t first = curves.start[c], last = curves.start[c + 1];
     for (uint32_t s = first; s < last; ++s) {
+      TRY(pace.after());
       if (s + 1 == last && curves.closed[c] == 0) break;
       const uint32_t a = arcs.sample_vertex[s];
       const uint32_t b = arcs.sample_vertex[s + 1 == last ? first : s + 1];
       if (a != b) edges->push_reserved({a < b ? a : b, a < b ? b : a, c});
     }
   }
-  sort(edges->span(), [](const ArcEdge& e, const ArcEdge& f) {
+  TRY(sort_in_parts(context, edges->span(), [](const ArcEdge& e, const ArcEdge& f) {
     if (e.a != f.a) return e.a < f.a;
     return e.b != f.b ? e.b < f.b : e.curve < f.curve;
-  });
+  }));
   size_t kept = 0;
-  for (const ArcEdge& e : *edges) {
-    if (kept > 0 && (*edges)[kept - 1].a == e.a && (*edges)[kept - 1].b == e.b) continue;
+  TRY(in_parts(context, edges->size(), [&](size_t i) {
+    const ArcEdge e = (*edges)[i];
+    if (kept > 0 && (*edges)[kept - 1].a == e.a && (*edges)[kept - 1].b == e.b) return;
     (*edges)[kept++] = e;
-  }
+  }));
   edges->shrink(kept);
   return {};
 }
 
 static Status link_edges(uint32_t vertices, ArcGraph* graph) {
-  TRY(graph->start.assign(size_t{vertices} + 1, 0));
+  Context& context = graph->edge.context();
+  TRY(assign_in_parts(size_t{vertices} + 1, 0, &graph->start));
   TRY(graph->edge_at.resize(2 * graph->edge.size()));
-  TRY(graph->used.assign(graph->edge.size(), 0));
-  for (const ArcEdge& e : graph->edge) {
-    ++graph->start[e.a];
-    ++graph->start[e.b];
-  }
+  TRY(assign_in_parts(graph->edge.size(), 0, &graph->used));
+  TRY(in_parts(context, graph->edge.size(), [&](size_t e) {
+    ++graph->start[graph->edge[e].a];
+    ++graph->start[graph->edge[e].b];
+  }));
   starts_from_counts(graph->start.span());
-  for (uint32_t e = 0; e < graph->edge.size(); ++e) {
+  TRY(in_parts(context, graph->edge.size(), [&](size_t i) {
+    const uint32_t e = static_cast<uint32_t>(i);
     graph->edge_at[graph->start[graph->edge[e].a]++] = e;
     graph->edge_at[graph->start[graph->edge[e].b]++] = e;
-  }
+  }));
   shift_starts_back(graph->start.span());
   return {};
 }
@@ -14308,10 +14317,11 @@ static bool turns_sharply(const ArcGraph& graph, Span<const Vec3> vertex, uint32
 }
 
 /* Follows the polyline from v along edge e to the next node, or round to v itself. */
-static void trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Arcs* arcs) {
+static Status trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Pace* pace, Arcs* arcs) {
   const uint32_t first = v;
   double along = 0.0;
   do {
+    TRY(pace->after());
     arcs->path.push_reserved(v);
     arcs->along.push_reserved(along);
     arcs->curve.push_reserved(graph->edge[e].curve);
@@ -14328,6 +14338,7 @@ static void trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Arcs* arcs) {
   arcs->curve.push_reserved(arcs->curve.back());
   arcs->closed.push_reserved(arcs->is_node[first] == 0);
   arcs->start.push_reserved(static_cast<uint32_t>(arcs->path.size()));
+  return {};
 }
 
 static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
@@ -14339,12 +14350,15 @@ static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
   TRY(arcs->closed.reserve(edges));
   TRY(arcs->start.reserve(edges + 1));
   arcs->start.push_reserved(0);
+  Pace pace(graph->edge.context());
   /* Arcs between nodes first; what is left after that are circles without one. */
   for (int pass = 0; pass < 2; ++pass) {
     for (uint32_t v = 0; v < vertices; ++v) {
+      TRY(pace.after());
       if ((pass == 0) != (arcs->is_node[v] != 0)) continue;
       for (uint32_t i = graph->start[v]; i < graph->start[v + 1]; ++i) {
-        if (graph->used[graph->edge_at[i]] == 0) trace_arc(graph, v, graph->edge_at[i], arcs);
+        const uint32_t e = graph->edge_at[i];
+        if (graph->used[e] == 0) TRY(trace_arc(graph, v, e, &pace, arcs));
       }
     }
   }
@@ -14353,9 +14367,11 @@ static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
 
 static Status gather_points(const Polylines& curves, const ArcGraph& graph, Arcs* arcs) {
   Array<uint8_t> seen(graph.used.context());
-  TRY(seen.assign(arcs->vertex.size(), 0));
+  Pace pace(seen.context());
+  TRY(assign_in_parts(arcs->vertex.size(), 0, &seen));
   for (uint32_t c = 0; c + 1 < curves.start.size(); ++c) {
     for (uint32_t s = curves.start[c]; s < curves.start[c + 1]; ++s) {
+      TRY(pace.after());
       const uint32_t v = arcs->sample_vertex[s];
       if (graph.degree(v) != 0 || seen[v] != 0) continue;
       seen[v] = 1;
@@ -14376,10 +14392,10 @@ Status find_arcs(Context& context, const Polylines& curves, Arcs* arcs) {
   TRY(gather_edges(curves, *arcs, &graph.edge));
   TRY(link_edges(vertices, &graph));
   TRY(arcs->is_node.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) {
-    const uint32_t degree = graph.degree(v);
+  TRY(in_parts(context, vertices, [&](size_t i) {
+    const uint32_t v = static_cast<uint32_t>(i), degree = graph.degree(v);
     arcs->is_node[v] = degree != 0 && (degree != 2 || turns_sharply(graph, arcs->vertex.span(), v));
-  }
+  }));
   TRY(gather_points(curves, graph, arcs));
   return trace_arcs(&graph, arcs);
 }
@@ -14578,6 +14594,7 @@ static double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 }
 
 static Status coarsen_arcs(Context& context, const Arcs& arcs, double step, CoarseArcs* coarse) {
+  Pace pace(context);
   TRY(coarse->start.push(0));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const double whole = arcs.length_of(a);
@@ -14587,17 +14604,18 @@ static Status coarsen_arcs(Context& context, const Arcs& arcs, double step, Coar
     }
     ArcWalk walk(arcs, a);
     for (uint32_t i = 0; i <= pieces; ++i) {
+      const uint32_t from = walk.step;
       TRY(coarse->point.push(walk.at(whole * i / pieces, arcs.start[a + 1] - 2)));
       TRY(coarse->arc.push(a));
+      TRY(pace.after(1 + walk.step - from));
     }
     TRY(coarse->start.push(static_cast<uint32_t>(coarse->point.size())));
-    if (a % 1024 == 0) TRY(context.checkpoint());
   }
   return {};
 }
 
 /* How far arc a strays from arc b, as soon as that is known to reach `enough`. */
-static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double enough) {
+static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double enough, Pace* pace) {
   double greatest = 0.0;
   const uint32_t first = coarse.start[a], count = coarse.start[a + 1] - first;
   for (uint32_t i = 0; i < count && greatest < enough; ++i) {
@@ -14607,6 +14625,7 @@ static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double eno
     double least = DBL_MAX;
     for (uint32_t j = coarse.start[b]; j + 1 < coarse.start[b + 1] && least > greatest; ++j) {
       least = smaller(least, distance_to_segment(p, coarse.point[j], coarse.point[j + 1]));
+      pace->add(1);
     }
     greatest = larger(greatest, least);
   }
@@ -14619,13 +14638,14 @@ static Status choose_steps(Context& context, const Arcs& arcs, double greatest_s
   CoarseArcs coarse(context);
   PointGrid grid(context);
   Array<uint32_t> seen(context);
+  Pace pace(context);
   const double spacing = 0.5 * greatest_step;
   TRY(steps->assign(arcs.size(), greatest_step));
   TRY(coarsen_arcs(context, arcs, spacing, &coarse));
   TRY(grid.build(coarse.point.span()));
   TRY(seen.assign(arcs.size(), k_none));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
-    if (a % 64 == 0) TRY(context.checkpoint());
+    TRY(pace.after());
     double nearest = 2.0 * greatest_step;
     const uint32_t middle = coarse.start[a] + (coarse.start[a + 1] - coarse.start[a]) / 2;
     seen[a] = a;
@@ -14633,7 +14653,7 @@ static Status choose_steps(Context& context, const Arcs& arcs, double greatest_s
       const uint32_t b = coarse.arc[near];
       if (seen[b] == a) return false;
       seen[b] = a;
-      const double distance = stray(coarse, a, b, nearest);
+      const double distance = stray(coarse, a, b, nearest, &pace);
       if (distance > k_same_curve * arcs.diagonal) nearest = smaller(nearest, distance);
       return false;
     });
@@ -14690,7 +14710,7 @@ static Status divide_stretch(double from, double to, double step, StationLine* l
 /* Given points that lie too far from the segments become stations, the worst of each first: a */
 /* station nearby moves there, or else one is added. At last all points of a segment are added, so */
 /* that the cost stays near-linear whatever the curve. */
-static Status take_strays(const Arcs& arcs, uint32_t a, double step, StationLine* line,
+static Status take_strays(const Arcs& arcs, uint32_t a, double step, Pace* pace, StationLine* line,
                           StationLine* work) {
   constexpr int k_most_passes = 16;
   constexpr double k_near = 0.4;  /* of the step */
@@ -14703,6 +14723,7 @@ static Status take_strays(const Arcs& arcs, uint32_t a, double step, StationLine
       const double from = line->along[i], to = line->along[i + 1];
       const uint32_t first = walk.step + 1;
       const uint32_t worst = worst_between(arcs, a, from, to, k_given_distance * step, &walk);
+      TRY(pace->after(2 + walk.step - first));
       TRY(work->push(from, line->fixed[i]));
       if (worst == k_none) continue;
       any = true;
@@ -14733,12 +14754,14 @@ static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double>
                           Stations* stations) {
   Array<double> first_step(context);
   StationLine own(context), work(context);
-  TRY(first_step.assign(arcs.vertex.size(), DBL_MAX));
+  Pace pace(context);
+  TRY(assign_in_parts(arcs.vertex.size(), DBL_MAX, &first_step));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const uint32_t ends[2] = {arcs.path[arcs.start[a]], arcs.path[arcs.start[a + 1] - 1]};
     const uint32_t wished = pieces_for(arcs.length_of(a), greatest[a]);
     const uint32_t least = is_loop(arcs, a) ? k_least_pieces_of_loop : k_least_pieces;
     const double step = arcs.length_of(a) / (wished < least ? least : wished);
+    TRY(pace.after(arcs.start[a + 1] - arcs.start[a]));
     for (uint32_t k = 0; k < 2; ++k) {
       const double straight = arcs.closed[a] != 0 ? step : straight_step(arcs, a, k == 1, step);
       first_step[ends[k]] = smaller(first_step[ends[k]], straight);
@@ -14756,13 +14779,13 @@ static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double>
     TRY(divide_stretch(begin, whole - end, step, &own));
     TRY(own.push(whole, 1));
     if (arcs.closed[a] != 0) own.fixed[own.fixed.size() - 2] = 0;
-    TRY(take_strays(arcs, a, step, &own, &work));
+    TRY(take_strays(arcs, a, step, &pace, &own, &work));
     if (stations->along.size() + own.along.size() > k_most_samples) {
       return fail(Code::too_large, "curves so near to each other need too many samples");
     }
     for (const double at : own.along) TRY(stations->along.push(at));
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
-    if (a % 1024 == 0) TRY(context.checkpoint());
+    TRY(pace.after(own.along.size()));
   }
   return {};
 }
@@ -14772,7 +14795,7 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
                             Samples* samples) {
   const size_t room = stations.along.size();
   Array<uint32_t> sample_of(context);
-  TRY(sample_of.assign(arcs.vertex.size(), k_none));
+  TRY(assign_in_parts(arcs.vertex.size(), k_none, &sample_of));
   TRY(samples->start.copy(stations.start.span()));
   TRY(samples->along.copy(stations.along.span()));
   TRY(samples->at.resize(room));
@@ -14786,7 +14809,9 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
     samples->position.push_reserved(p);
     samples->vertex.push_reserved(vertex);
   };
+  Pace pace(context);
   for (uint32_t v = 0; v < arcs.vertex.size(); ++v) {
+    TRY(pace.after());
     if (arcs.is_node[v] != 0) add(arcs.vertex[v], v);
   }
   for (const uint32_t v : arcs.point) add(arcs.vertex[v], v);
@@ -14797,7 +14822,9 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
     if (sample_of[begin] == k_none) add(arcs.vertex[begin], begin);
     ArcWalk walk(arcs, a);
     for (uint32_t i = first; i <= last; ++i) {
+      const uint32_t from = walk.step;
       const Vec3 p = walk.at(stations.along[i], last_step);
+      TRY(pace.after(1 + walk.step - from));
       samples->step[i] = walk.step;
       samples->at[i] = i == first  ? sample_of[begin]
                        : i == last ? sample_of[end]
@@ -21210,6 +21237,7 @@ struct Turn {
 
 static constexpr double k_sharp = 0.60141159900854613;  /* between unit directions 35 degrees apart */
 static constexpr uint32_t k_wide = 3;
+static constexpr size_t k_steps_of_bend = 8;  /* what looking at a place takes */
 
 /* Nothing where the chain ends before that. */
 static Bend bend_at(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place,
@@ -21246,9 +21274,10 @@ static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
 /* transverse axes have the lower quartile .76 sigma. */
 static Status noise_of(Span<const Turn> turns, Array<double>* moves, double* sigma) {
   constexpr double k_quartile_of_rayleigh = 0.76;
+  Context& context = moves->context();
   TRY(moves->resize(turns.size()));
-  for (size_t i = 0; i < turns.size(); ++i) (*moves)[i] = turns[i].narrow.move;
-  sort(moves->span(), [](double a, double b) { return a < b; });
+  TRY(in_parts(context, turns.size(), [&](size_t i) { (*moves)[i] = turns[i].narrow.move; }));
+  TRY(sort_in_parts(context, moves->span(), [](double a, double b) { return a < b; }));
   *sigma = (*moves)[turns.size() / 4] / k_quartile_of_rayleigh;
   return {};
 }
@@ -21272,39 +21301,40 @@ static Status mark_corners_of(double noise, bool closed, Span<const Turn> turns,
   if (turns.empty()) return {};
   size_t sharp = 0, flat = 0;
   double sigma = noise;
-  for (const Turn& turn : turns) {
-    sharp += turn.narrow.turn > k_sharp;
-    flat += turn.flat;
-  }
+  TRY(in_parts(moves->context(), turns.size(), [&](size_t i) {
+    sharp += turns[i].narrow.turn > k_sharp;
+    flat += turns[i].flat;
+  }));
   const bool in_space = turns.size() >= k_statistics && 5 * flat < turns.size();
   const bool polygon = !(noise > 0.0) && !in_space && 4 * sharp > 3 * turns.size();
   if (!(noise > 0.0)) TRY(noise_of(turns, moves, &sigma));
-  for (size_t i = 0; i < turns.size(); ++i) {
+  return in_parts(moves->context(), turns.size(), [&](size_t i) {
     const Bend &narrow = turns[i].narrow, &wide = turns[i].wide;
-    if (!(narrow.turn > k_sharp)) continue;
+    if (!(narrow.turn > k_sharp)) return;
     const bool alone =
         wide.turn > k_sharp && wide.move > k_contrast * sigma && turns_most(turns, i, closed);
     corner[turns[i].place] = polygon || alone || narrow.move > k_contrast * sigma;
-  }
-  return {};
+  });
 }
 
 static Status mark_corners(Context& context, const Arcs& arcs, double noise, Chains* chains) {
   Array<Turn> turns(context);
   Array<double> moves(context);
+  Pace pace(context);
   TRY(turns.reserve(chains->vertex.size()));
-  TRY(chains->corner.assign(chains->vertex.size(), 0));
+  TRY(assign_in_parts(chains->vertex.size(), 0, &chains->corner));
   for (uint32_t c = 0; c < chains->size(); ++c) {
     const bool closed = chains->closed[c] != 0;
     turns.clear();
     for (uint32_t i = chains->start[c]; i < chains->start[c + 1]; ++i) {
+      TRY(pace.after(k_steps_of_bend));
       const bool end = i == chains->start[c] || i + 1 == chains->start[c + 1];
       if (!closed && end) continue;
       turns.push_reserved({i, bend_at(arcs, *chains, c, i, 1), bend_at(arcs, *chains, c, i, k_wide),
                            is_flat(arcs, *chains, c, i)});
     }
     TRY(mark_corners_of(noise, closed, turns.span(), &moves, chains->corner.span()));
-    if (c % 1024 == 0) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -37389,9 +37419,11 @@ static Status read_flow_curves(const wsk_curve* curves, size_t count, FlowInput*
   TRY(input->number.reserve(total));
   if (normals) TRY(normal->reserve(total));
   input->start.push_reserved(0);
+  Pace pace(input->position.context());
   for (size_t c = 0; c < count; ++c) {
     const wsk_curve& curve = curves[c];
     for (size_t i = 0; i < curve.sample_count; ++i) {
+      TRY(pace.after());
       Place place;
       place.curve = static_cast<uint32_t>(c);
       place.sample = static_cast<uint32_t>(i);
@@ -37439,7 +37471,8 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   TRY(read_flow_curves(curves, count, &input, &made->normal, &made->bare_curves));
   TRY(find_scale(input.position.span(), &made->exponent));
   const Scale scale(-made->exponent);
-  for (Vec3& p : input.position) p = scale(p);
+  TRY(in_parts(context, input.position.size(),
+               [&](size_t i) { input.position[i] = scale(input.position[i]); }));
   flow::FlowOptions inside;
   inside.sampling = scale(flow_options.sampling);
   inside.spacing = scale(options.spacing);
