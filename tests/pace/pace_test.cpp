@@ -109,6 +109,26 @@ std::vector<double> stretches_of_sensors(const std::vector<wsk_sensor_curve>& cu
   return pace.stretches;
 }
 
+std::vector<double> stretches_of_flow(const std::vector<wsk_curve>& curves, std::string* size) {
+  wsk_options options;
+  wsk_options_init(&options, sizeof options);
+  wsk_flow_options how;
+  wsk_flow_options_init(&how, sizeof how);
+  Pace pace;
+  pace.install(&options);
+  wsk_flow* flow = nullptr;
+  REQUIRE(wsk_flow_build(curves.data(), curves.size(), &options, &how, &flow, nullptr) == WSK_OK);
+  wsk_surface* surface = nullptr;
+  REQUIRE(wsk_flow_surface(flow, &options, &how, &surface, nullptr) == WSK_OK);
+  Pace::ask(&pace);
+  wsk_surface_view view;
+  wsk_surface_get_view(surface, &view, sizeof view);
+  *size = std::to_string(view.vertex_count) + " vertices";
+  wsk_surface_free(surface);
+  wsk_flow_free(flow);
+  return pace.stretches;
+}
+
 // A point of a shallow bowl, with its normal or without.
 void add_sample(double x, double y, bool with_normal, scenes::Curve* curve) {
   const double scale = with_normal ? 1.0 / std::sqrt(x * x + y * y + 1.0) : 0.0;
@@ -265,4 +285,28 @@ TEST_CASE("a checkpoint is never far: a mesh of the caller's with sixty thousand
     }
   }
   for (const wsk_method method : {WSK_METHOD_STANKO, WSK_METHOD_FAIR}) check_pace(scene, method);
+}
+
+TEST_CASE("a checkpoint is never far: a million samples of curves alone") {
+  constexpr int k_levels = 5, k_samples = 70000;  // circles of a sphere across each axis
+  const double round = 2.0 * std::acos(-1.0);
+  std::vector<std::vector<double>> positions(3 * k_levels);
+  std::vector<wsk_curve> curves;
+  for (int c = 0; c < 3 * k_levels; ++c) {
+    const double height = -0.9 + 1.8 * (c / 3 + 0.5) / k_levels;
+    const double radius = std::sqrt(1.0 - height * height);
+    for (int i = 0; i < k_samples; ++i) {
+      double p[3];
+      p[c % 3] = height;
+      p[(c + 1) % 3] = radius * std::cos(round * i / k_samples);
+      p[(c + 2) % 3] = radius * std::sin(round * i / k_samples);
+      positions[c].insert(positions[c].end(), p, p + 3);
+    }
+    wsk_curve curve = {};
+    curve.sample_count = k_samples;
+    curve.positions = positions[c].data();
+    curve.closed = 1;
+    curves.push_back(curve);
+  }
+  check_least("circles", [&](std::string* size) { return stretches_of_flow(curves, size); });
 }
