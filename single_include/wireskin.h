@@ -1389,6 +1389,12 @@ class Array {
     return {};
   }
 
+  /* Where what was there is not needed: it is given back before there is more, instead of copied. */
+  Status resize_anew(size_t size) {
+    if (size > room_) free();
+    return resize(size);
+  }
+
   Status assign(size_t size, const T& value) {
     const T kept = value;  /* as in push() */
     TRY(resize(size));
@@ -1713,7 +1719,7 @@ inline constexpr size_t k_light_steps_per_checkpoint = 16 * k_steps_per_checkpoi
 template <typename T>
 Status assign_in_parts(size_t size, const std::enable_if_t<true, T>& value, Array<T>* array) {
   const T kept = value;  /* it may live in the memory that resize() gives back */
-  TRY(array->resize(size));
+  TRY(array->resize_anew(size));
   return in_parts<k_light_steps_per_checkpoint>(array->context(), size,
                                                 [&](size_t i) { (*array)[i] = kept; });
 }
@@ -1939,10 +1945,10 @@ class Roughness {
   /* After this the smoothed values are at hand. `residuals` may be null. */
   Status smooth(double lambda, Residuals* residuals);
   /* Whether they change the extent of any curve by more than the part `tolerated` of it. */
-  bool changes_sizes(const KeptSamples& samples, double tolerated) const;
+  Status compare_sizes(const KeptSamples& samples, double tolerated, bool* change);
   /* Writes them to all copies of each sample. */
-  void write_positions(const KeptSamples& samples) const;
-  void write_normals(const KeptSamples& samples) const;
+  Status write_positions(const KeptSamples& samples);
+  Status write_normals(const KeptSamples& samples);
 
   explicit Roughness(Context& context)
       : context_(&context),
@@ -1962,9 +1968,10 @@ class Roughness {
   Status number_unknowns(const KeptSamples& samples);
   Status list_rows(const KeptSamples& samples, Span<const double> gaps);
   Status prepare_system();
-  void fill_right_side();
+  Status measure_gaps(const KeptSamples& samples, bool filtered, Array<double>* gaps);
+  Status fill_right_side();
   Status find_freedom(double* freedom);
-  void measure_residuals(Residuals* residuals) const;
+  Status measure_residuals(Residuals* residuals) const;
 
   static constexpr uint32_t k_columns = 6;  /* of position and normal */
   static constexpr uint32_t k_probes = 8;
@@ -4731,8 +4738,8 @@ struct SplineScratch {
 /* first). `tangent_first` and `tangent_last` are the derivatives at the ends, read when the ends */
 /* are clamped. */
 Status fit_spline(Span<const double> knots, Span<const Vec3> values, SplineEnd end,
-                  const Vec3& tangent_first, const Vec3& tangent_last, Span<Vec3> moments,
-                  SplineScratch* scratch);
+                  const Vec3& tangent_first, const Vec3& tangent_last, Pace* pace,
+                  Span<Vec3> moments, SplineScratch* scratch);
 
 /* The derivative at the first knot of the parabola through the first three values; of the straight */
 /* line where there are two. With `last`, the same at the other end. */
@@ -4808,14 +4815,17 @@ struct Curves {
 
 /* Checks that neighbouring samples differ, that there are enough of them and that normals do not */
 /* jump. The place of a failure names the sample; the caller knows the curve. */
-Status check_samples(const Samples& samples);
+Status check_samples(const Samples& samples, Pace* pace);
 
 /* The samples to interpolate, in order along the curve; a closed curve begins at its first node. */
-Status thin(const Samples& samples, Array<uint32_t>* kept);
+Status thin(const Samples& samples, Pace* pace, Array<uint32_t>* kept);
+
+/* Room for so many knots in all, for callers who know: growing copies. */
+Status reserve_knots(size_t count, Curves* curves);
 
 /* Fits one more curve through the samples `kept`, in that order; the others are not read. Smoothing */
 /* comes between thinning and this. An open curve of one sample is a point: one knot, no interval. */
-Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curves);
+Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Pace* pace, Curves* curves);
 
 /* Thins and fits at once. */
 Status add_curve(const Samples& samples, Curves* curves);
@@ -4914,7 +4924,8 @@ struct LineDistance {
   double sum_of_squares = 0.0;
 };
 
-LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed);
+Status distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed, Pace* pace,
+                        LineDistance* result);
 
 }  /* namespace wireskin::curves */
 /* ======== end src/curves/distance.h ======== */
@@ -8714,6 +8725,9 @@ static double without_dust(double entry) {
   return std::fabs(entry) < k_dust ? 0.0 : entry;
 }
 
+/* What a column costs beside its entries. */
+static constexpr size_t k_work_of_column = 16;
+
 Status Ldl::count_work(size_t work) {
   constexpr size_t k_work_per_checkpoint = size_t{1} << 21;
   work_ += work;
@@ -8742,17 +8756,17 @@ Status Ldl::analyse(const Csc& lower, Span<const uint32_t> order) {
   WIRESKIN_ASSERT(is_lower_triangle(lower) && order.size() == lower.cols);
   factored_ = false;
   const uint32_t n = lower.cols;
-  TRY(order_.copy(order));
+  TRY(copy_in_parts(order, &order_));
   TRY(path_.resize(n));
   TRY(pattern_.resize(n));
   TRY(filled_.resize(n));
-  TRY(column_.assign(n, 0.0));
-  TRY(sum_.assign(n, 0.0));
+  TRY(assign_in_parts(n, 0.0, &column_));
+  TRY(assign_in_parts(n, 0.0, &sum_));
   TRY(diagonal_.resize(n));
   TRY(inverse_diagonal_.resize(n));
-  TRY(visited_.assign(n, k_none));
-  TRY(start_.assign(size_t{n} + 1, 0));
-  for (uint32_t k = 0; k < n; ++k) path_[order[k]] = k;
+  TRY(assign_in_parts(n, k_none, &visited_));
+  TRY(assign_in_parts(size_t{n} + 1, 0, &start_));
+  TRY(in_parts(*context_, n, [&](size_t k) { path_[order[k]] = static_cast<uint32_t>(k); }));
   TRY(permute_pattern(lower, path_.span(), Triangle::upper, &upper_));
   TRY(elimination_tree(upper_, &parent_));
   uint64_t entries = 0;
@@ -8763,7 +8777,7 @@ Status Ldl::analyse(const Csc& lower, Span<const uint32_t> order) {
     if (entries >= k_none) {
       return fail(Code::too_large, "the factor is too large for 32-bit indices");
     }
-    TRY(count_work(n - top + 1));
+    TRY(count_work(n - top + k_work_of_column));
   }
   starts_from_counts(start_.span());
   TRY(row_.resize(static_cast<size_t>(entries)));
@@ -8790,7 +8804,7 @@ Status Ldl::factor(const Csc& lower) {
     }
     double pivot = column_[k];
     column_[k] = 0.0;
-    size_t work = 1;
+    size_t work = k_work_of_column;
     for (uint32_t t = top; t < n; ++t) {
       const uint32_t j = pattern_[t];
       const double y = column_[j];
@@ -8830,7 +8844,7 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
       double* yi = y + size_t{row_[p]} * columns;
       for (uint32_t c = 0; c < columns; ++c) yi[c] -= value_[p] * yj[c];
     }
-    TRY(count_work(size_t{start_[j + 1] - start_[j]} * columns));
+    TRY(count_work(k_work_of_column + size_t{start_[j + 1] - start_[j]} * columns));
   }
   for (uint32_t j = n; j-- > 0;) {
     double* yj = y + size_t{j} * columns;
@@ -8839,7 +8853,7 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
       const double* yi = y + size_t{row_[p]} * columns;
       for (uint32_t c = 0; c < columns; ++c) yj[c] -= value_[p] * yi[c];
     }
-    TRY(count_work(size_t{start_[j + 1] - start_[j]} * columns));
+    TRY(count_work(k_work_of_column + size_t{start_[j + 1] - start_[j]} * columns));
   }
   return in_parts(*context_, n, [&](size_t k) {
     double* to = x.data() + size_t{order_[k]} * columns;
@@ -8856,7 +8870,7 @@ Status Ldl::inverse_diagonal(Span<double> diagonal) {
   const uint32_t n = static_cast<uint32_t>(order_.size());
   for (uint32_t j = n; j-- > 0;) {
     const uint32_t first = start_[j], end = start_[j + 1];
-    size_t work = 1;
+    size_t work = k_work_of_column;
     for (uint32_t p = first; p < end; ++p) {
       column_[row_[p]] = value_[p];
       sum_[row_[p]] = 0.0;
@@ -8892,6 +8906,8 @@ Status Ldl::inverse_diagonal(Span<double> diagonal) {
 /* ======== begin src/network/roughness.cpp ======== */
 namespace wireskin::network {
 
+static constexpr size_t k_steps_of_row = 4;  /* of some fourteen columns */
+
 /* One curve's part of the kept samples. */
 struct KeptCurve {
   uint32_t first_kept;
@@ -8915,16 +8931,19 @@ static uint32_t sample_of(const KeptSamples& samples, const KeptCurve& curve, ui
 }
 
 /* One pass of the mask 1/4, 1/2, 1/4 over the points of a curve; ends stay. */
-static void filter_points(const KeptCurve& curve, Span<const Vec3> from, Span<Vec3> to) {
+static Status filter_points(const KeptCurve& curve, Span<const Vec3> from, Pace* pace,
+                            Span<Vec3> to) {
   for (uint32_t k = 0; k < curve.count; ++k) {
+    TRY(pace->after());
     to[k] = from[k];
     if (curve.is_end(k)) continue;
     to[k] = 0.25 * (from[curve.before(k)] + from[curve.after(k)]) + 0.5 * from[k];
   }
+  return {};
 }
 
 /* The distance of each kept sample to the next one of its curve; zero after the end of an open one. */
-static Status measure_gaps(const KeptSamples& samples, bool filtered, Array<double>* gaps) {
+Status Roughness::measure_gaps(const KeptSamples& samples, bool filtered, Array<double>* gaps) {
   constexpr int k_filter_passes = 4;
   Array<Vec3> points(gaps->context()), work(gaps->context());
   TRY(points.resize(samples.kept.size()));
@@ -8934,13 +8953,16 @@ static Status measure_gaps(const KeptSamples& samples, bool filtered, Array<doub
     const KeptCurve curve = kept_curve(samples, c);
     const Span<Vec3> p = points.span().part(curve.first_kept, curve.count);
     const Span<Vec3> q = work.span().part(curve.first_kept, curve.count);
-    for (uint32_t k = 0; k < curve.count; ++k)
+    for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       p[k] = samples.position[sample_of(samples, curve, k)];
+    }
     for (int pass = 0; filtered && pass < k_filter_passes; pass += 2) {
-      filter_points(curve, p, q);
-      filter_points(curve, q, p);
+      TRY(filter_points(curve, p, &pace_, q));
+      TRY(filter_points(curve, q, &pace_, p));
     }
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const bool last = !curve.closed && k + 1 == curve.count;
       (*gaps)[curve.first_kept + k] = last ? 0.0 : length(p[curve.after(k)] - p[k]);
     }
@@ -8953,12 +8975,13 @@ Status Roughness::number_unknowns(const KeptSamples& samples) {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const uint32_t node = samples.node[sample_of(samples, curve, k)];
       if (node != k_none && node >= nodes) nodes = node + 1;
     }
   }
   Array<uint32_t> unknown_of_node(*context_);
-  TRY(unknown_of_node.assign(nodes, k_none));
+  TRY(assign_in_parts(nodes, k_none, &unknown_of_node));
   TRY(unknown_.resize(samples.kept.size()));
   TRY(value_.reserve(samples.kept.size() * k_columns));
   value_.clear();
@@ -8966,6 +8989,7 @@ Status Roughness::number_unknowns(const KeptSamples& samples) {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const uint32_t sample = sample_of(samples, curve, k);
       const uint32_t node = samples.node[sample];
       const bool known = node != k_none && unknown_of_node[node] != k_none;
@@ -9018,6 +9042,7 @@ Status Roughness::list_rows(const KeptSamples& samples, Span<const double> gaps)
   for (size_t c = 0; c < samples.closed.size() && spacing_ > 0.0; ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       if (curve.is_end(k)) continue;
       if (!samples.corner.empty() && samples.corner[sample_of(samples, curve, k)]) continue;
       const uint32_t before = curve.before(k), after = curve.after(k);
@@ -9039,10 +9064,11 @@ Status Roughness::list_rows(const KeptSamples& samples, Span<const double> gaps)
 }
 
 /* E p in the first columns, probes in the others: signs from a linear congruential generator. */
-void Roughness::fill_right_side() {
+Status Roughness::fill_right_side() {
   const uint32_t columns = k_columns + probes_;
   uint32_t random = 1;
   for (uint32_t j = 0; j < rows(); ++j) {
+    TRY(pace_.after(k_steps_of_row));
     double* to = right_side_.data() + size_t{j} * columns;
     for (uint32_t i = 0; i < k_columns; ++i) to[i] = 0.0;
     for (uint32_t e = transposed_.start[j]; e < transposed_.start[j + 1]; ++e) {
@@ -9054,6 +9080,7 @@ void Roughness::fill_right_side() {
       to[i] = random >> 31 != 0 ? 1.0 : -1.0;
     }
   }
+  return {};
 }
 
 /* E E^T, its factor's structure, and E p. */
@@ -9064,24 +9091,23 @@ Status Roughness::prepare_system() {
   Array<double> ones(*context_);
   Array<uint32_t> same(*context_), order(*context_);
   TRY(sparse::transpose(transposed_, &roughness));
-  TRY(ones.assign(unknowns_, 1.0));
+  TRY(assign_in_parts(unknowns_, 1.0, &ones));
   TRY(same.resize(m));
-  for (uint32_t j = 0; j < m; ++j) same[j] = j;
+  TRY(in_parts(*context_, m, [&](size_t j) { same[j] = static_cast<uint32_t>(j); }));
   TRY(sparse::weighted_product(roughness, ones.span(), transposed_, same.span(), m,
                                sparse::Part::lower, &product_));
   TRY(sparse::minimum_degree(product_, &order));
   TRY(factor_.analyse(product_, order.span()));
   system_.rows = system_.cols = m;
-  TRY(system_.start.copy(product_.start.span()));
-  TRY(system_.row.copy(product_.row.span()));
+  TRY(copy_in_parts(product_.start, &system_.start));
+  TRY(copy_in_parts(product_.row, &system_.row));
   TRY(system_.value.resize(product_.value.size()));
   probes_ = m > k_exact_rows ? k_probes : 0;
   TRY(right_side_.resize(size_t{m} * (k_columns + probes_)));
   TRY(solution_.resize(right_side_.size()));
   TRY(inverse_diagonal_.resize(probes_ == 0 ? m : 0));
   TRY(residual_.resize(size_t{unknowns_} * k_columns));
-  fill_right_side();
-  return {};
+  return fill_right_side();
 }
 
 Status Roughness::build(const KeptSamples& samples, bool filtered) {
@@ -9092,10 +9118,10 @@ Status Roughness::build(const KeptSamples& samples, bool filtered) {
   TRY(number_unknowns(samples));
   TRY(measure_gaps(samples, filtered, &gaps));
   TRY(sorted.reserve(gaps.size()));
-  for (const double gap : gaps) {
-    if (gap > 0.0) sorted.push_reserved(gap);
-  }
-  sort(sorted.span(), [](double a, double b) { return a < b; });
+  TRY(in_parts(*context_, gaps.size(), [&](size_t k) {
+    if (gaps[k] > 0.0) sorted.push_reserved(gaps[k]);
+  }));
+  TRY(sort_in_parts(*context_, sorted.span(), [](double a, double b) { return a < b; }));
   spacing_ = sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
   TRY(list_rows(samples, gaps.span()));
   return rows() > 0 ? prepare_system() : Status{};
@@ -9113,6 +9139,7 @@ Status Roughness::find_freedom(double* freedom) {
   }
   const uint32_t columns = k_columns + probes_;
   for (uint32_t j = 0; j < rows(); ++j) {
+    TRY(pace_.after());
     const double* z = right_side_.data() + size_t{j} * columns;
     const double* y = solution_.data() + size_t{j} * columns;
     for (uint32_t i = k_columns; i < columns; ++i) sum += z[i] * (z[i] - y[i]);
@@ -9121,25 +9148,27 @@ Status Roughness::find_freedom(double* freedom) {
   return {};
 }
 
-void Roughness::measure_residuals(Residuals* residuals) const {
+Status Roughness::measure_residuals(Residuals* residuals) const {
   residuals->position = residuals->normal = 0.0;
-  for (uint32_t u = 0; u < unknowns_; ++u) {
-    const double* r = residual_.data() + size_t{u} * k_columns;
+  return in_parts(*context_, unknowns_, [&](size_t u) {
+    const double* r = residual_.data() + u * k_columns;
     residuals->position += r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
     residuals->normal += r[3] * r[3] + r[4] * r[4] + r[5] * r[5];
-  }
+  });
 }
 
 Status Roughness::smooth(double lambda, Residuals* residuals) {
   const uint32_t m = rows(), columns = k_columns + probes_;
   TRY(pace_.after(m));
-  for (size_t e = 0; e < product_.value.size(); ++e) system_.value[e] = lambda * product_.value[e];
-  for (uint32_t j = 0; j < m; ++j) system_.value[system_.start[j]] += 1.0;
-  for (size_t i = 0; i < solution_.size(); ++i) solution_[i] = right_side_[i];
+  TRY(in_parts(*context_, product_.value.size(),
+               [&](size_t e) { system_.value[e] = lambda * product_.value[e]; }));
+  TRY(in_parts(*context_, m, [&](size_t j) { system_.value[system_.start[j]] += 1.0; }));
+  TRY(copy_in_parts(right_side_, &solution_));
   TRY(factor_.factor(system_));
   TRY(factor_.solve(solution_.span(), columns));
-  for (double& r : residual_) r = 0.0;
+  TRY(assign_in_parts(residual_.size(), 0.0, &residual_));
   for (uint32_t j = 0; j < m; ++j) {
+    TRY(pace_.after(k_steps_of_row));
     const double* from = solution_.data() + size_t{j} * columns;
     for (uint32_t e = transposed_.start[j]; e < transposed_.start[j + 1]; ++e) {
       const double weight = lambda * transposed_.value[e];
@@ -9148,17 +9177,19 @@ Status Roughness::smooth(double lambda, Residuals* residuals) {
     }
   }
   if (residuals == nullptr) return {};
-  measure_residuals(residuals);
+  TRY(measure_residuals(residuals));
   return find_freedom(&residuals->freedom);
 }
 
-bool Roughness::changes_sizes(const KeptSamples& samples, double tolerated) const {
+Status Roughness::compare_sizes(const KeptSamples& samples, double tolerated, bool* change) {
+  *change = false;
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     if (curve.count == 0) continue;
     const size_t first = size_t{unknown_[curve.first_kept]} * k_columns;
     double was = 0.0, is = 0.0;  /* greatest distance from the first sample */
     for (uint32_t k = 1; k < curve.count; ++k) {
+      TRY(pace_.after());
       const size_t at = size_t{unknown_[curve.first_kept + k]} * k_columns;
       const double* v = value_.data();
       const double* r = residual_.data();
@@ -9168,27 +9199,30 @@ bool Roughness::changes_sizes(const KeptSamples& samples, double tolerated) cons
       was = old_distance > was ? old_distance : was;
       is = new_distance > is ? new_distance : is;
     }
-    if (!(std::fabs(is - was) <= tolerated * was)) return true;
+    *change = *change || !(std::fabs(is - was) <= tolerated * was);
   }
-  return false;
+  return {};
 }
 
-void Roughness::write_positions(const KeptSamples& samples) const {
+Status Roughness::write_positions(const KeptSamples& samples) {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const size_t at = size_t{unknown_[curve.first_kept + k]} * k_columns;
       const double* v = value_.data() + at;
       const double* r = residual_.data() + at;
       samples.position[sample_of(samples, curve, k)] = {v[0] - r[0], v[1] - r[1], v[2] - r[2]};
     }
   }
+  return {};
 }
 
-void Roughness::write_normals(const KeptSamples& samples) const {
+Status Roughness::write_normals(const KeptSamples& samples) {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const size_t at = size_t{unknown_[curve.first_kept + k]} * k_columns + 3;
       const double* v = value_.data() + at;
       const double* r = residual_.data() + at;
@@ -9200,6 +9234,7 @@ void Roughness::write_normals(const KeptSamples& samples) const {
           dot(smoothed, given) > 0.0 ? unit(smoothed) : given;
     }
   }
+  return {};
 }
 
 }  /* namespace wireskin::network */
@@ -9333,16 +9368,18 @@ static Status choose_weights(WeightSearch* search, const SmoothingOptions& optio
 static Status apply_weights(WeightSearch* search, const KeptSamples& samples,
                             const SmoothingReport& report, bool* keeps_sizes) {
   constexpr double k_tolerated = 0.2;
+  bool change = false;
   *keeps_sizes = true;
   if (report.lambda_position > 0.0) {
     TRY(search->roughness.smooth(report.lambda_position, nullptr));
-    *keeps_sizes = !search->roughness.changes_sizes(samples, k_tolerated);
-    if (!*keeps_sizes) return {};
-    search->roughness.write_positions(samples);
+    TRY(search->roughness.compare_sizes(samples, k_tolerated, &change));
+    *keeps_sizes = !change;
+    if (change) return {};
+    TRY(search->roughness.write_positions(samples));
   }
   if (report.lambda_normal > 0.0) {
     TRY(search->roughness.smooth(report.lambda_normal, nullptr));
-    search->roughness.write_normals(samples);
+    TRY(search->roughness.write_normals(samples));
   }
   return {};
 }
@@ -12102,9 +12139,9 @@ size_t Cholesky::factor_bytes() const {
 }
 
 Status Cholesky::allocate_workspace() {
-  TRY(value_.resize(supernodes_.panel[supernodes_.count]));
-  TRY(workspace_.resize(fronts_.workspace));
-  return scratch_.resize(scratch_size());
+  TRY(value_.resize_anew(supernodes_.panel[supernodes_.count]));
+  TRY(workspace_.resize_anew(fronts_.workspace));
+  return scratch_.resize_anew(scratch_size());
 }
 
 Status Cholesky::count_work(uint64_t work) {
@@ -13603,9 +13640,11 @@ static Status read_side_normal(const double* data, size_t stride, size_t i, cons
   return data == nullptr ? Status{} : read_normal({data, stride}, i, place, normal);
 }
 
-static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* storage) {
+static Status read_curve(const wsk_curve& curve, uint32_t index, Pace* pace,
+                         CurveStorage* storage) {
   const Rows positions = {curve.positions, curve.position_stride};
   for (size_t i = 0; i < curve.sample_count; ++i) {
+    TRY(pace->after());
     const Place place = sample_place(index, i);
     Vec3 position, normal;
     TRY(read_position(positions, i, place, &position));
@@ -13645,8 +13684,10 @@ Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage)
     for (size_t c = 0; c < count; ++c) storage->sharp[c] = is_sharp(curves[c]);
   }
   storage->start.push_reserved(0);
+  Pace pace(storage->position.context());
   for (size_t c = 0; c < count; ++c) {
-    TRY(read_curve(curves[c], static_cast<uint32_t>(c), storage));
+    TRY(pace.after());
+    TRY(read_curve(curves[c], static_cast<uint32_t>(c), &pace, storage));
   }
   return {};
 }
@@ -14155,14 +14196,18 @@ static Status join_numbers(Context& context, const Polylines& curves, double tol
   };
   Array<Numbered> order(context);
   TRY(order.reserve(curves.number.size()));
-  for (uint32_t s = 0; s < curves.number.size(); ++s) {
-    if (curves.number[s] != k_none) order.push_reserved({curves.number[s], s});
-  }
-  sort(order.span(), [](const Numbered& a, const Numbered& b) {
+  TRY(in_parts(context, curves.number.size(), [&](size_t s) {
+    if (curves.number[s] != k_none) {
+      order.push_reserved({curves.number[s], static_cast<uint32_t>(s)});
+    }
+  }));
+  TRY(sort_in_parts(context, order.span(), [](const Numbered& a, const Numbered& b) {
     return a.number != b.number ? a.number < b.number : a.sample < b.sample;
-  });
+  }));
   uint32_t first = 0;
+  Pace pace(context);
   for (uint32_t i = 1; i < order.size(); ++i) {
+    TRY(pace.after());
     if (order[i].number != order[first].number) {
       first = i;
       continue;
@@ -14202,59 +14247,64 @@ static Status find_vertices(Context& context, const Polylines& curves, Arcs* arc
   TRY(parent.resize(n));
   TRY(arcs->sample_vertex.resize(n));
   TRY(arcs->vertex.reserve(n));
-  for (uint32_t s = 0; s < n; ++s) parent[s] = s;
+  TRY(in_parts(context, n, [&](size_t s) { parent[s] = static_cast<uint32_t>(s); }));
   TRY(join_numbers(context, curves, tolerance, parent.span()));
   TRY(join_coinciding(context, curves.position, tolerance, parent.span()));
-  for (uint32_t s = 0; s < n; ++s) {
-    const uint32_t root = root_of(parent.span(), s);
+  return in_parts(context, n, [&](size_t i) {
+    const uint32_t s = static_cast<uint32_t>(i), root = root_of(parent.span(), s);
     if (root == s) {
       arcs->sample_vertex[s] = static_cast<uint32_t>(arcs->vertex.size());
       arcs->vertex.push_reserved(curves.position[s]);
     } else {
       arcs->sample_vertex[s] = arcs->sample_vertex[root];
     }
-  }
-  return {};
+  });
 }
 
 /* The segments, each once. */
 static Status gather_edges(const Polylines& curves, const Arcs& arcs, Array<ArcEdge>* edges) {
+  Context& context = edges->context();
+  Pace pace(context);
   TRY(edges->reserve(curves.position.size()));
   for (uint32_t c = 0; c + 1 < curves.start.size(); ++c) {
     const uint32_t first = curves.start[c], last = curves.start[c + 1];
     for (uint32_t s = first; s < last; ++s) {
+      TRY(pace.after());
       if (s + 1 == last && curves.closed[c] == 0) break;
       const uint32_t a = arcs.sample_vertex[s];
       const uint32_t b = arcs.sample_vertex[s + 1 == last ? first : s + 1];
       if (a != b) edges->push_reserved({a < b ? a : b, a < b ? b : a, c});
     }
   }
-  sort(edges->span(), [](const ArcEdge& e, const ArcEdge& f) {
+  TRY(sort_in_parts(context, edges->span(), [](const ArcEdge& e, const ArcEdge& f) {
     if (e.a != f.a) return e.a < f.a;
     return e.b != f.b ? e.b < f.b : e.curve < f.curve;
-  });
+  }));
   size_t kept = 0;
-  for (const ArcEdge& e : *edges) {
-    if (kept > 0 && (*edges)[kept - 1].a == e.a && (*edges)[kept - 1].b == e.b) continue;
+  TRY(in_parts(context, edges->size(), [&](size_t i) {
+    const ArcEdge e = (*edges)[i];
+    if (kept > 0 && (*edges)[kept - 1].a == e.a && (*edges)[kept - 1].b == e.b) return;
     (*edges)[kept++] = e;
-  }
+  }));
   edges->shrink(kept);
   return {};
 }
 
 static Status link_edges(uint32_t vertices, ArcGraph* graph) {
-  TRY(graph->start.assign(size_t{vertices} + 1, 0));
+  Context& context = graph->edge.context();
+  TRY(assign_in_parts(size_t{vertices} + 1, 0, &graph->start));
   TRY(graph->edge_at.resize(2 * graph->edge.size()));
-  TRY(graph->used.assign(graph->edge.size(), 0));
-  for (const ArcEdge& e : graph->edge) {
-    ++graph->start[e.a];
-    ++graph->start[e.b];
-  }
+  TRY(assign_in_parts(graph->edge.size(), 0, &graph->used));
+  TRY(in_parts(context, graph->edge.size(), [&](size_t e) {
+    ++graph->start[graph->edge[e].a];
+    ++graph->start[graph->edge[e].b];
+  }));
   starts_from_counts(graph->start.span());
-  for (uint32_t e = 0; e < graph->edge.size(); ++e) {
+  TRY(in_parts(context, graph->edge.size(), [&](size_t i) {
+    const uint32_t e = static_cast<uint32_t>(i);
     graph->edge_at[graph->start[graph->edge[e].a]++] = e;
     graph->edge_at[graph->start[graph->edge[e].b]++] = e;
-  }
+  }));
   shift_starts_back(graph->start.span());
   return {};
 }
@@ -14267,10 +14317,11 @@ static bool turns_sharply(const ArcGraph& graph, Span<const Vec3> vertex, uint32
 }
 
 /* Follows the polyline from v along edge e to the next node, or round to v itself. */
-static void trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Arcs* arcs) {
+static Status trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Pace* pace, Arcs* arcs) {
   const uint32_t first = v;
   double along = 0.0;
   do {
+    TRY(pace->after());
     arcs->path.push_reserved(v);
     arcs->along.push_reserved(along);
     arcs->curve.push_reserved(graph->edge[e].curve);
@@ -14287,6 +14338,7 @@ static void trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Arcs* arcs) {
   arcs->curve.push_reserved(arcs->curve.back());
   arcs->closed.push_reserved(arcs->is_node[first] == 0);
   arcs->start.push_reserved(static_cast<uint32_t>(arcs->path.size()));
+  return {};
 }
 
 static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
@@ -14298,12 +14350,15 @@ static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
   TRY(arcs->closed.reserve(edges));
   TRY(arcs->start.reserve(edges + 1));
   arcs->start.push_reserved(0);
+  Pace pace(graph->edge.context());
   /* Arcs between nodes first; what is left after that are circles without one. */
   for (int pass = 0; pass < 2; ++pass) {
     for (uint32_t v = 0; v < vertices; ++v) {
+      TRY(pace.after());
       if ((pass == 0) != (arcs->is_node[v] != 0)) continue;
       for (uint32_t i = graph->start[v]; i < graph->start[v + 1]; ++i) {
-        if (graph->used[graph->edge_at[i]] == 0) trace_arc(graph, v, graph->edge_at[i], arcs);
+        const uint32_t e = graph->edge_at[i];
+        if (graph->used[e] == 0) TRY(trace_arc(graph, v, e, &pace, arcs));
       }
     }
   }
@@ -14312,9 +14367,11 @@ static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
 
 static Status gather_points(const Polylines& curves, const ArcGraph& graph, Arcs* arcs) {
   Array<uint8_t> seen(graph.used.context());
-  TRY(seen.assign(arcs->vertex.size(), 0));
+  Pace pace(seen.context());
+  TRY(assign_in_parts(arcs->vertex.size(), 0, &seen));
   for (uint32_t c = 0; c + 1 < curves.start.size(); ++c) {
     for (uint32_t s = curves.start[c]; s < curves.start[c + 1]; ++s) {
+      TRY(pace.after());
       const uint32_t v = arcs->sample_vertex[s];
       if (graph.degree(v) != 0 || seen[v] != 0) continue;
       seen[v] = 1;
@@ -14335,10 +14392,10 @@ Status find_arcs(Context& context, const Polylines& curves, Arcs* arcs) {
   TRY(gather_edges(curves, *arcs, &graph.edge));
   TRY(link_edges(vertices, &graph));
   TRY(arcs->is_node.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) {
-    const uint32_t degree = graph.degree(v);
+  TRY(in_parts(context, vertices, [&](size_t i) {
+    const uint32_t v = static_cast<uint32_t>(i), degree = graph.degree(v);
     arcs->is_node[v] = degree != 0 && (degree != 2 || turns_sharply(graph, arcs->vertex.span(), v));
-  }
+  }));
   TRY(gather_points(curves, graph, arcs));
   return trace_arcs(&graph, arcs);
 }
@@ -14365,14 +14422,15 @@ struct ChainSamples {
 
 /* Vertices that occur in several places get numbers of their own. */
 static Status number_shared(uint32_t vertices, const flow::Chains& chains, Array<uint32_t>* node) {
-  Array<uint32_t> uses(node->context());
-  TRY(uses.assign(vertices, 0));
-  TRY(node->resize(chains.vertex.size()));
-  for (const uint32_t v : chains.vertex) ++uses[v];
+  Context& context = node->context();
+  Array<uint32_t> uses(context);
+  const size_t n = chains.vertex.size();
+  TRY(assign_in_parts(vertices, 0, &uses));
+  TRY(node->resize(n));
+  TRY(in_parts(context, n, [&](size_t i) { ++uses[chains.vertex[i]]; }));
   uint32_t numbers = 0;
-  for (uint32_t& u : uses) u = u > 1 ? numbers++ : k_none;
-  for (size_t i = 0; i < node->size(); ++i) (*node)[i] = uses[chains.vertex[i]];
-  return {};
+  TRY(in_parts(context, vertices, [&](size_t v) { uses[v] = uses[v] > 1 ? numbers++ : k_none; }));
+  return in_parts(context, n, [&](size_t i) { (*node)[i] = uses[chains.vertex[i]]; });
 }
 
 /* Without normals a constant field, which has no noise, stands for them. */
@@ -14380,14 +14438,19 @@ static Status gather_places(const flow::Arcs& arcs, const flow::Chains& chains,
                             Span<const Vec3> normal, ChainSamples* places) {
   const size_t n = chains.vertex.size();
   Array<Vec3> of_vertex(places->normal.context());
+  Pace pace(places->normal.context());
   TRY(number_shared(static_cast<uint32_t>(arcs.vertex.size()), chains, &places->node));
   TRY(places->kept.resize(n));
   TRY(places->position.resize(n));
   TRY(places->normal.resize(n));
-  TRY(of_vertex.assign(arcs.vertex.size(), Vec3{0, 0, 1}));
-  for (size_t s = normal.size(); s-- > 0;) of_vertex[arcs.sample_vertex[s]] = normal[s];
+  TRY(assign_in_parts(arcs.vertex.size(), Vec3{0, 0, 1}, &of_vertex));
+  for (size_t s = normal.size(); s-- > 0;) {
+    TRY(pace.after());
+    of_vertex[arcs.sample_vertex[s]] = normal[s];
+  }
   for (uint32_t c = 0; c < chains.size(); ++c) {
     for (uint32_t i = chains.start[c]; i < chains.start[c + 1]; ++i) {
+      TRY(pace.after());
       places->kept[i] = i - chains.start[c];
       places->position[i] = arcs.vertex[chains.vertex[i]];
       places->normal[i] = of_vertex[chains.vertex[i]];
@@ -14396,27 +14459,27 @@ static Status gather_places(const flow::Arcs& arcs, const flow::Chains& chains,
   return {};
 }
 
-static double greatest_move(const flow::Arcs& arcs, const flow::Chains& chains,
-                            Span<const Vec3> position) {
-  double greatest = 0.0;
-  for (size_t i = 0; i < position.size(); ++i) {
+static Status measure_move(Context& context, const flow::Arcs& arcs, const flow::Chains& chains,
+                           Span<const Vec3> position, double* greatest) {
+  *greatest = 0.0;
+  return in_parts(context, position.size(), [&](size_t i) {
     const double move = length(position[i] - arcs.vertex[chains.vertex[i]]);
-    if (move > greatest) greatest = move;
-  }
-  return greatest;
+    if (move > *greatest) *greatest = move;
+  });
 }
 
 /* All samples of a vertex that moved get its new place. */
 static Status write_samples(const flow::Arcs& arcs, const flow::Chains& chains,
                             Span<const Vec3> places, Span<Vec3> samples) {
   Array<uint32_t> place(chains.vertex.context());
-  TRY(place.assign(arcs.vertex.size(), k_none));
-  for (uint32_t i = 0; i < chains.vertex.size(); ++i) place[chains.vertex[i]] = i;
-  for (size_t s = 0; s < samples.size(); ++s) {
+  Context& context = place.context();
+  TRY(assign_in_parts(arcs.vertex.size(), k_none, &place));
+  TRY(in_parts(context, chains.vertex.size(),
+               [&](size_t i) { place[chains.vertex[i]] = static_cast<uint32_t>(i); }));
+  return in_parts(context, samples.size(), [&](size_t s) {
     const uint32_t i = place[arcs.sample_vertex[s]];
     if (i != k_none) samples[s] = places[i];
-  }
-  return {};
+  });
 }
 
 Status smooth_polylines(Context& context, const flow::Polylines& polylines,
@@ -14439,7 +14502,8 @@ Status smooth_polylines(Context& context, const flow::Polylines& polylines,
   inside.negligible = k_no_noise * arcs.diagonal;
   inside.negligible_normal = k_no_noise_of_normals;
   TRY(network::smooth_samples(context, kept, inside, report));
-  const double moved = greatest_move(arcs, chains, places.position.span());
+  double moved = 0.0;
+  TRY(measure_move(context, arcs, chains, places.position.span(), &moved));
   if (moved > (found ? k_no_noise * arcs.diagonal : 0.0)) {
     TRY(write_samples(arcs, chains, places.position.span(), position));
   }
@@ -14537,6 +14601,7 @@ static double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 }
 
 static Status coarsen_arcs(Context& context, const Arcs& arcs, double step, CoarseArcs* coarse) {
+  Pace pace(context);
   TRY(coarse->start.push(0));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const double whole = arcs.length_of(a);
@@ -14546,17 +14611,18 @@ static Status coarsen_arcs(Context& context, const Arcs& arcs, double step, Coar
     }
     ArcWalk walk(arcs, a);
     for (uint32_t i = 0; i <= pieces; ++i) {
+      const uint32_t from = walk.step;
       TRY(coarse->point.push(walk.at(whole * i / pieces, arcs.start[a + 1] - 2)));
       TRY(coarse->arc.push(a));
+      TRY(pace.after(1 + walk.step - from));
     }
     TRY(coarse->start.push(static_cast<uint32_t>(coarse->point.size())));
-    if (a % 1024 == 0) TRY(context.checkpoint());
   }
   return {};
 }
 
 /* How far arc a strays from arc b, as soon as that is known to reach `enough`. */
-static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double enough) {
+static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double enough, Pace* pace) {
   double greatest = 0.0;
   const uint32_t first = coarse.start[a], count = coarse.start[a + 1] - first;
   for (uint32_t i = 0; i < count && greatest < enough; ++i) {
@@ -14566,6 +14632,7 @@ static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double eno
     double least = DBL_MAX;
     for (uint32_t j = coarse.start[b]; j + 1 < coarse.start[b + 1] && least > greatest; ++j) {
       least = smaller(least, distance_to_segment(p, coarse.point[j], coarse.point[j + 1]));
+      pace->add(1);
     }
     greatest = larger(greatest, least);
   }
@@ -14578,13 +14645,14 @@ static Status choose_steps(Context& context, const Arcs& arcs, double greatest_s
   CoarseArcs coarse(context);
   PointGrid grid(context);
   Array<uint32_t> seen(context);
+  Pace pace(context);
   const double spacing = 0.5 * greatest_step;
   TRY(steps->assign(arcs.size(), greatest_step));
   TRY(coarsen_arcs(context, arcs, spacing, &coarse));
   TRY(grid.build(coarse.point.span()));
   TRY(seen.assign(arcs.size(), k_none));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
-    if (a % 64 == 0) TRY(context.checkpoint());
+    TRY(pace.after());
     double nearest = 2.0 * greatest_step;
     const uint32_t middle = coarse.start[a] + (coarse.start[a + 1] - coarse.start[a]) / 2;
     seen[a] = a;
@@ -14592,7 +14660,7 @@ static Status choose_steps(Context& context, const Arcs& arcs, double greatest_s
       const uint32_t b = coarse.arc[near];
       if (seen[b] == a) return false;
       seen[b] = a;
-      const double distance = stray(coarse, a, b, nearest);
+      const double distance = stray(coarse, a, b, nearest, &pace);
       if (distance > k_same_curve * arcs.diagonal) nearest = smaller(nearest, distance);
       return false;
     });
@@ -14649,7 +14717,7 @@ static Status divide_stretch(double from, double to, double step, StationLine* l
 /* Given points that lie too far from the segments become stations, the worst of each first: a */
 /* station nearby moves there, or else one is added. At last all points of a segment are added, so */
 /* that the cost stays near-linear whatever the curve. */
-static Status take_strays(const Arcs& arcs, uint32_t a, double step, StationLine* line,
+static Status take_strays(const Arcs& arcs, uint32_t a, double step, Pace* pace, StationLine* line,
                           StationLine* work) {
   constexpr int k_most_passes = 16;
   constexpr double k_near = 0.4;  /* of the step */
@@ -14662,6 +14730,7 @@ static Status take_strays(const Arcs& arcs, uint32_t a, double step, StationLine
       const double from = line->along[i], to = line->along[i + 1];
       const uint32_t first = walk.step + 1;
       const uint32_t worst = worst_between(arcs, a, from, to, k_given_distance * step, &walk);
+      TRY(pace->after(2 + walk.step - first));
       TRY(work->push(from, line->fixed[i]));
       if (worst == k_none) continue;
       any = true;
@@ -14692,12 +14761,14 @@ static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double>
                           Stations* stations) {
   Array<double> first_step(context);
   StationLine own(context), work(context);
-  TRY(first_step.assign(arcs.vertex.size(), DBL_MAX));
+  Pace pace(context);
+  TRY(assign_in_parts(arcs.vertex.size(), DBL_MAX, &first_step));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const uint32_t ends[2] = {arcs.path[arcs.start[a]], arcs.path[arcs.start[a + 1] - 1]};
     const uint32_t wished = pieces_for(arcs.length_of(a), greatest[a]);
     const uint32_t least = is_loop(arcs, a) ? k_least_pieces_of_loop : k_least_pieces;
     const double step = arcs.length_of(a) / (wished < least ? least : wished);
+    TRY(pace.after(arcs.start[a + 1] - arcs.start[a]));
     for (uint32_t k = 0; k < 2; ++k) {
       const double straight = arcs.closed[a] != 0 ? step : straight_step(arcs, a, k == 1, step);
       first_step[ends[k]] = smaller(first_step[ends[k]], straight);
@@ -14715,13 +14786,13 @@ static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double>
     TRY(divide_stretch(begin, whole - end, step, &own));
     TRY(own.push(whole, 1));
     if (arcs.closed[a] != 0) own.fixed[own.fixed.size() - 2] = 0;
-    TRY(take_strays(arcs, a, step, &own, &work));
+    TRY(take_strays(arcs, a, step, &pace, &own, &work));
     if (stations->along.size() + own.along.size() > k_most_samples) {
       return fail(Code::too_large, "curves so near to each other need too many samples");
     }
     for (const double at : own.along) TRY(stations->along.push(at));
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
-    if (a % 1024 == 0) TRY(context.checkpoint());
+    TRY(pace.after(own.along.size()));
   }
   return {};
 }
@@ -14731,7 +14802,7 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
                             Samples* samples) {
   const size_t room = stations.along.size();
   Array<uint32_t> sample_of(context);
-  TRY(sample_of.assign(arcs.vertex.size(), k_none));
+  TRY(assign_in_parts(arcs.vertex.size(), k_none, &sample_of));
   TRY(samples->start.copy(stations.start.span()));
   TRY(samples->along.copy(stations.along.span()));
   TRY(samples->at.resize(room));
@@ -14745,7 +14816,9 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
     samples->position.push_reserved(p);
     samples->vertex.push_reserved(vertex);
   };
+  Pace pace(context);
   for (uint32_t v = 0; v < arcs.vertex.size(); ++v) {
+    TRY(pace.after());
     if (arcs.is_node[v] != 0) add(arcs.vertex[v], v);
   }
   for (const uint32_t v : arcs.point) add(arcs.vertex[v], v);
@@ -14756,7 +14829,9 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
     if (sample_of[begin] == k_none) add(arcs.vertex[begin], begin);
     ArcWalk walk(arcs, a);
     for (uint32_t i = first; i <= last; ++i) {
+      const uint32_t from = walk.step;
       const Vec3 p = walk.at(stations.along[i], last_step);
+      TRY(pace.after(1 + walk.step - from));
       samples->step[i] = walk.step;
       samples->at[i] = i == first  ? sample_of[begin]
                        : i == last ? sample_of[end]
@@ -20042,6 +20117,8 @@ static Vec3 measured_step(const SensorSamples& samples, size_t c, uint32_t i) {
   return samples.to_next[c] ? arc * from : chord_of_arc(from, to, arc);
 }
 
+static constexpr size_t k_steps_of_arc = 4;  /* a step to measure takes as long as so many others */
+
 /* One step between two different points, k_none in place of a fixed one. */
 struct Step {
   uint32_t low, high;
@@ -20052,37 +20129,42 @@ struct Step {
 static Status number_unknowns(Context& context, const SensorSamples& samples,
                               Array<uint32_t>* unknown, uint32_t* count) {
   DisjointSets sets(context);
+  Pace pace(context);
   TRY(sets.reset(samples.points));
   TRY(unknown->resize(samples.points));
   for (size_t c = 0; c + 1 < samples.start.size(); ++c) {
     for (uint32_t i = samples.start[c] + 1; i < samples.start[c + 1]; ++i) {
       sets.unite(samples.point[i - 1], samples.point[i]);
+      TRY(pace.after());
     }
   }
   *count = 0;
-  for (uint32_t p = 0; p < samples.points; ++p) {
+  return in_parts(context, samples.points, [&](size_t i) {
+    const uint32_t p = static_cast<uint32_t>(i);
     (*unknown)[p] = sets.find(p) == p ? k_none : (*count)++;
-  }
-  return {};
+  });
 }
 
 /* The lower triangle of the weighted Laplacian; steps between the same two points add up. */
-static Status assemble_laplacian(uint32_t n, Span<Step> steps, Span<const double> diagonal,
-                                 sparse::Csc* matrix) {
-  sort(steps, [](const Step& p, const Step& q) {
+static Status assemble_laplacian(Context& context, uint32_t n, Span<Step> steps,
+                                 Span<const double> diagonal, sparse::Csc* matrix) {
+  TRY(sort_in_parts(context, steps, [](const Step& p, const Step& q) {
     if (p.low != q.low) return p.low < q.low;
     return p.high != q.high ? p.high < q.high : p.weight < q.weight;
-  });
+  }));
   matrix->rows = matrix->cols = n;
   TRY(matrix->start.resize(n + size_t{1}));
   TRY(matrix->row.reserve(n + steps.size()));
   TRY(matrix->value.reserve(n + steps.size()));
   size_t k = 0;
+  Pace pace(context);
   for (uint32_t j = 0; j < n; ++j) {
+    TRY(pace.after());
     matrix->start[j] = static_cast<uint32_t>(matrix->row.size());
     matrix->row.push_reserved(j);
     matrix->value.push_reserved(diagonal[j]);
     for (; k < steps.size() && steps[k].low == j; ++k) {
+      TRY(pace.after());
       if (matrix->row.back() == steps[k].high) {
         matrix->value.back() -= steps[k].weight;
         continue;
@@ -20102,7 +20184,7 @@ static Status solve_laplacian(Context& context, Span<Step> steps, Span<const dou
   sparse::Csc matrix(context);
   sparse::Cholesky factor(context);
   Array<uint32_t> order(context);
-  TRY(assemble_laplacian(n, steps, diagonal, &matrix));
+  TRY(assemble_laplacian(context, n, steps, diagonal, &matrix));
   TRY(sparse::minimum_degree(matrix, &order));
   TRY(factor.analyse(matrix, order.span()));
   TRY(context.enter(Stage::factor));
@@ -20118,15 +20200,17 @@ Status integrate_tangents(Context& context, const SensorSamples& samples, Span<V
   Array<double> diagonal(context), x(context);
   uint32_t n = 0;
   TRY(number_unknowns(context, samples, &unknown, &n));
+  Pace pace(context);
   TRY(steps.reserve(samples.arc.size()));
-  TRY(diagonal.assign(n, 0.0));
-  TRY(x.assign(size_t{3} * n, 0.0));
+  TRY(assign_in_parts(n, 0.0, &diagonal));
+  TRY(assign_in_parts(size_t{3} * n, 0.0, &x));
   const auto add = [&](uint32_t u, const Vec3& v) {
     if (u == k_none) return;
     x[3 * u] += v.x, x[3 * u + 1] += v.y, x[3 * u + 2] += v.z;
   };
   for (size_t c = 0; c + 1 < samples.start.size(); ++c) {
     for (uint32_t i = samples.start[c] + 1; i < samples.start[c + 1]; ++i) {
+      TRY(pace.after(k_steps_of_arc));
       const uint32_t a = unknown[samples.point[i - 1]], b = unknown[samples.point[i]];
       if (samples.point[i - 1] == samples.point[i]) continue;
       const double weight = 1.0 / (samples.arc[i] - samples.arc[i - 1]);
@@ -20140,13 +20224,14 @@ Status integrate_tangents(Context& context, const SensorSamples& samples, Span<V
     }
   }
   TRY(solve_laplacian(context, steps.span(), diagonal.span(), x.span()));
-  for (size_t i = 0; i < position.size(); ++i) {
+  TRY(in_parts(context, position.size(), [&](size_t i) {
     const uint32_t u = unknown[samples.point[i]];
     position[i] = u == k_none ? Vec3{} : Vec3{x[3 * u], x[3 * u + 1], x[3 * u + 2]};
-  }
+  }));
   double sum = 0.0, count = 0.0;
   for (size_t c = 0; c + 1 < samples.start.size(); ++c) {
     for (uint32_t i = samples.start[c] + 1; i < samples.start[c + 1]; ++i) {
+      TRY(pace.after(k_steps_of_arc));
       const Vec3 misfit = position[i] - position[i - 1] - measured_step(samples, c, i);
       sum += dot(misfit, misfit);
       count += 1.0;
@@ -20223,25 +20308,32 @@ static Vec3 chord_slope(Span<const double> knots, Span<const Vec3> values, size_
 /* pivoting, in place: `diagonal` and `rhs` are overwritten, `rhs` becomes the solution. off[i] */
 /* couples unknowns i and i + 1. */
 template <typename Value>
-static void solve_tridiagonal(Span<double> diagonal, Span<const double> off, Span<Value> rhs) {
+static Status solve_tridiagonal(Span<double> diagonal, Span<const double> off, Span<Value> rhs,
+                                Pace* pace) {
   const size_t n = diagonal.size();
   for (size_t i = 1; i < n; ++i) {
+    TRY(pace->after());
     const double factor = off[i - 1] / diagonal[i - 1];
     diagonal[i] -= factor * off[i - 1];
     rhs[i] = rhs[i] - factor * rhs[i - 1];
   }
   rhs[n - 1] = (1.0 / diagonal[n - 1]) * rhs[n - 1];
-  for (size_t i = n - 1; i-- > 0;) rhs[i] = (1.0 / diagonal[i]) * (rhs[i] - off[i] * rhs[i + 1]);
+  for (size_t i = n - 1; i-- > 0;) {
+    TRY(pace->after());
+    rhs[i] = (1.0 / diagonal[i]) * (rhs[i] - off[i] * rhs[i + 1]);
+  }
+  return {};
 }
 
 /* Moments of an open spline: continuity of the slope at inner knots, and at the ends either no */
 /* curvature (natural) or the given slope (clamped). */
-static void open_moments(Span<const double> knots, Span<const Vec3> values, bool clamped,
-                         const Vec3& tangent_first, const Vec3& tangent_last, Span<double> diagonal,
-                         Span<double> off, Span<Vec3> moments) {
+static Status open_moments(Span<const double> knots, Span<const Vec3> values, bool clamped,
+                           const Vec3& tangent_first, const Vec3& tangent_last, Pace* pace,
+                           Span<double> diagonal, Span<double> off, Span<Vec3> moments) {
   const size_t last = knots.size() - 1;
   for (size_t i = 0; i < last; ++i) off[i] = knots[i + 1] - knots[i];
   for (size_t i = 1; i < last; ++i) {
+    TRY(pace->after());
     diagonal[i] = 2.0 * (off[i - 1] + off[i]);
     moments[i] = 6.0 * (chord_slope(knots, values, i) - chord_slope(knots, values, i - 1));
   }
@@ -20250,25 +20342,24 @@ static void open_moments(Span<const double> knots, Span<const Vec3> values, bool
     diagonal[last] = 2.0 * off[last - 1];
     moments[0] = 6.0 * (chord_slope(knots, values, 0) - tangent_first);
     moments[last] = 6.0 * (tangent_last - chord_slope(knots, values, last - 1));
-    solve_tridiagonal(diagonal, off, moments);
-    return;
+    return solve_tridiagonal(diagonal, off, moments, pace);
   }
   moments[0] = moments[last] = Vec3{};
-  if (last > 1) {
-    solve_tridiagonal(diagonal.part(1, last - 1), Span<const double>(off.part(1, last - 1)),
-                      moments.part(1, last - 1));
-  }
+  if (last == 1) return {};
+  return solve_tridiagonal(diagonal.part(1, last - 1), Span<const double>(off.part(1, last - 1)),
+                           moments.part(1, last - 1), pace);
 }
 
 /* Moments of a closed spline. The cyclic matrix is a tridiagonal one plus a matrix of rank one */
 /* (Sherman and Morrison): A = T + u u^T / g with u = (g, 0, ..., 0, corner). */
-static void periodic_moments(Span<const double> knots, Span<const Vec3> values,
-                             Span<double> diagonal, Span<double> off, Span<double> correction,
-                             Span<Vec3> moments) {
+static Status periodic_moments(Span<const double> knots, Span<const Vec3> values, Pace* pace,
+                               Span<double> diagonal, Span<double> off, Span<double> correction,
+                               Span<Vec3> moments) {
   const size_t n = knots.size() - 1;
   for (size_t i = 0; i < n; ++i) off[i] = knots[i + 1] - knots[i];
   const double corner = off[n - 1];
   for (size_t i = 0; i < n; ++i) {
+    TRY(pace->after());
     const size_t before = i == 0 ? n - 1 : i - 1;
     diagonal[i] = 2.0 * (off[before] + off[i]);
     moments[i] = 6.0 * (chord_slope(knots, values, i) - chord_slope(knots, values, before));
@@ -20282,13 +20373,18 @@ static void periodic_moments(Span<const double> knots, Span<const Vec3> values,
   /* Both systems have the same matrix, and solving overwrites it: keep a copy at the array's end. */
   const Span<double> copy = correction.part(n, n);
   for (size_t i = 0; i < n; ++i) copy[i] = diagonal[i];
-  solve_tridiagonal(diagonal.part(0, n), Span<const double>(off.part(0, n)), moments.part(0, n));
-  solve_tridiagonal(copy, Span<const double>(off.part(0, n)), correction.part(0, n));
+  const Span<const double> beside = off.part(0, n);
+  TRY(solve_tridiagonal(diagonal.part(0, n), beside, moments.part(0, n), pace));
+  TRY(solve_tridiagonal(copy, beside, correction.part(0, n), pace));
   const double ratio = corner / g;
   const double scale = 1.0 / (1.0 + correction[0] + ratio * correction[n - 1]);
   const Vec3 projection = scale * (moments[0] + ratio * moments[n - 1]);
-  for (size_t i = 0; i < n; ++i) moments[i] -= correction[i] * projection;
+  for (size_t i = 0; i < n; ++i) {
+    TRY(pace->after());
+    moments[i] -= correction[i] * projection;
+  }
   moments[n] = moments[0];
+  return {};
 }
 
 Vec3 parabola_tangent(Span<const double> knots, Span<const Vec3> values, bool last) {
@@ -20314,8 +20410,8 @@ Vec3 spline_value(const Spline& spline, size_t i, double t) {
 }
 
 Status fit_spline(Span<const double> knots, Span<const Vec3> values, SplineEnd end,
-                  const Vec3& tangent_first, const Vec3& tangent_last, Span<Vec3> moments,
-                  SplineScratch* scratch) {
+                  const Vec3& tangent_first, const Vec3& tangent_last, Pace* pace,
+                  Span<Vec3> moments, SplineScratch* scratch) {
   const size_t n = knots.size();
   WIRESKIN_ASSERT(n >= (end == SplineEnd::periodic ? 4u : 2u));
   WIRESKIN_ASSERT(values.size() == n && moments.size() == n);
@@ -20323,13 +20419,11 @@ Status fit_spline(Span<const double> knots, Span<const Vec3> values, SplineEnd e
   TRY(scratch->off.resize(n));
   if (end == SplineEnd::periodic) {
     TRY(scratch->correction.resize(2 * (n - 1)));
-    periodic_moments(knots, values, scratch->diagonal.span(), scratch->off.span(),
-                     scratch->correction.span(), moments);
-  } else {
-    open_moments(knots, values, end == SplineEnd::clamped, tangent_first, tangent_last,
-                 scratch->diagonal.span(), scratch->off.span(), moments);
+    return periodic_moments(knots, values, pace, scratch->diagonal.span(), scratch->off.span(),
+                            scratch->correction.span(), moments);
   }
-  return {};
+  return open_moments(knots, values, end == SplineEnd::clamped, tangent_first, tangent_last, pace,
+                      scratch->diagonal.span(), scratch->off.span(), moments);
 }
 
 }  /* namespace wireskin::curves */
@@ -20379,7 +20473,7 @@ static bool bends_over(const Samples& samples, size_t before, size_t i) {
          dot(conormal(samples, before), conormal(samples, i)) > k_twist_cosine;
 }
 
-Status check_samples(const Samples& samples) {
+Status check_samples(const Samples& samples, Pace* pace) {
   const size_t n = samples.position.size();
   if (n < (samples.closed ? 3u : 2u)) {
     return fail(Code::too_few_samples, samples.closed
@@ -20390,6 +20484,7 @@ Status check_samples(const Samples& samples) {
   for (size_t i = 1; i < n && !moves; ++i) moves = samples.position[i] != samples.position[0];
   if (!moves) return fail(Code::zero_length_curve, "all samples of the curve are the same point");
   for (size_t i = samples.closed ? 0 : 1; i < n; ++i) {
+    TRY(pace->after());
     const size_t before = i == 0 ? n - 1 : i - 1;
     if (samples.position[i] == samples.position[before]) {
       return fail_sample(Code::duplicate_samples,
@@ -20418,12 +20513,16 @@ Status check_samples(const Samples& samples) {
   return {};
 }
 
-static double mean_spacing(const Samples& samples) {
+static Status measure_spacing(const Samples& samples, Pace* pace, double* mean) {
   const size_t n = samples.position.size();
   double sum = 0.0;
-  for (size_t i = 1; i < n; ++i) sum += length(samples.position[i] - samples.position[i - 1]);
+  for (size_t i = 1; i < n; ++i) {
+    TRY(pace->after());
+    sum += length(samples.position[i] - samples.position[i - 1]);
+  }
   if (samples.closed) sum += length(samples.position[0] - samples.position[n - 1]);
-  return sum / static_cast<double>(samples.closed ? n : n - 1);
+  *mean = sum / static_cast<double>(samples.closed ? n : n - 1);
+  return {};
 }
 
 static uint32_t first_node(const Samples& samples) {
@@ -20434,16 +20533,19 @@ static uint32_t first_node(const Samples& samples) {
 }
 
 /* A sample that must stay pushes out a droppable one just before it. */
-Status thin(const Samples& samples, Array<uint32_t>* kept) {
+Status thin(const Samples& samples, Pace* pace, Array<uint32_t>* kept) {
   const uint32_t start = samples.closed ? first_node(samples) : 0;
   const uint32_t n = static_cast<uint32_t>(samples.position.size());
-  const double least = 0.5 * mean_spacing(samples);
+  double mean = 0.0;
+  TRY(measure_spacing(samples, pace, &mean));
+  const double least = 0.5 * mean;
   TRY(kept->reserve(n + 1));
   kept->clear();
   const auto near = [&](uint32_t a, uint32_t b) {
     return length(samples.position[a] - samples.position[b]) < least;
   };
   for (uint32_t k = 0; k < n; ++k) {
+    TRY(pace->after());
     const uint32_t i = samples.closed ? (start + k) % n : k;
     const bool end = k == 0 || (!samples.closed && k == n - 1);
     if (samples.node[i] == k_none && !end) {
@@ -20459,6 +20561,7 @@ Status thin(const Samples& samples, Array<uint32_t>* kept) {
   }
   bool whole = kept->size() >= (samples.closed ? 3u : 2u);
   for (size_t k = samples.closed ? 0 : 1; whole && k < kept->size(); ++k) {
+    TRY(pace->after());
     const uint32_t before = (*kept)[k == 0 ? kept->size() - 1 : k - 1];
     whole = samples.position[(*kept)[k]] != samples.position[before];
   }
@@ -20466,7 +20569,10 @@ Status thin(const Samples& samples, Array<uint32_t>* kept) {
   /* line to and fro or to a point. */
   if (!whole) {
     kept->clear();
-    for (uint32_t k = 0; k < n; ++k) kept->push_reserved(samples.closed ? (start + k) % n : k);
+    for (uint32_t k = 0; k < n; ++k) {
+      TRY(pace->after());
+      kept->push_reserved(samples.closed ? (start + k) % n : k);
+    }
   }
   return {};
 }
@@ -20517,11 +20623,8 @@ Curve Curves::operator[](size_t curve) const {
           node.span().part(first, count)};
 }
 
-/* Grows all arrays by half at least, so that many short curves cost linear time. */
-static Status make_room(size_t size, Curves* curves) {
-  if (size <= curves->room) return {};
-  const size_t more = curves->room + curves->room / 2;
-  const size_t room = size > more ? size : more;
+Status reserve_knots(size_t room, Curves* curves) {
+  if (room <= curves->room) return {};
   TRY(curves->knot.reserve(room));
   TRY(curves->arc.reserve(room));
   TRY(curves->position.reserve(room));
@@ -20534,12 +20637,14 @@ static Status make_room(size_t size, Curves* curves) {
   return {};
 }
 
-/* Room for `count` more knots, not yet filled. */
+/* Room for `count` more knots, not yet filled. Grows all arrays by half at least, so that many */
+/* short curves cost linear time. */
 static Status extend(size_t count, Curves* curves) {
   const size_t size = curves->knot.size() + count;
   if (size >= k_none) return fail(Code::too_large, "too many samples for 32-bit indices");
   if (curves->start.empty()) TRY(curves->start.push(0));
-  TRY(make_room(size, curves));
+  const size_t half_more = curves->room + curves->room / 2;
+  if (size > curves->room) TRY(reserve_knots(size > half_more ? size : half_more, curves));
   TRY(curves->knot.resize(size));
   TRY(curves->arc.resize(size));
   TRY(curves->position.resize(size));
@@ -20551,14 +20656,15 @@ static Status extend(size_t count, Curves* curves) {
   return curves->start.push(static_cast<uint32_t>(size));
 }
 
-static Status fit(Span<const double> knots, Span<const Vec3> values, bool closed,
+static Status fit(Span<const double> knots, Span<const Vec3> values, bool closed, Pace* pace,
                   Span<Vec3> moments, SplineScratch* scratch) {
   return fit_spline(knots, values, closed ? SplineEnd::periodic : SplineEnd::clamped,
                     parabola_tangent(knots, values, false), parabola_tangent(knots, values, true),
-                    moments, scratch);
+                    pace, moments, scratch);
 }
 
-Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curves) {
+Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Pace* pace, Curves* curves) {
+  constexpr size_t k_steps_of_arc = 4;
   SplineScratch scratch(curves->start.context());
   const size_t first = curves->knot.size(), count = kept.size() + (samples.closed ? 1 : 0);
   TRY(extend(count, curves));
@@ -20566,6 +20672,7 @@ Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curv
   const Span<Vec3> positions = curves->position.span().part(first, count);
   const Span<Vec3> normals = curves->normal.span().part(first, count);
   for (size_t k = 0; k < count; ++k) {
+    TRY(pace->after());
     const uint32_t sample = kept[k < kept.size() ? k : 0];
     positions[k] = samples.position[sample];
     normals[k] = samples.normal[sample];
@@ -20578,13 +20685,14 @@ Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curv
     curves->arc[first] = 0.0;
     return {};
   }
-  TRY(fit(knots, positions, samples.closed, curves->position_moment.span().part(first, count),
+  TRY(fit(knots, positions, samples.closed, pace, curves->position_moment.span().part(first, count),
           &scratch));
-  TRY(fit(knots, normals, samples.closed, curves->normal_moment.span().part(first, count),
+  TRY(fit(knots, normals, samples.closed, pace, curves->normal_moment.span().part(first, count),
           &scratch));
   const Spline spline = (*curves)[curves->size() - 1].position;
   double arc = 0.0;
   for (size_t k = 0; k < count; ++k) {
+    TRY(pace->after(k_steps_of_arc));
     if (k > 0) arc += arc_in_interval(spline, k - 1, knots[k]);
     curves->arc[first + k] = arc;
   }
@@ -20593,8 +20701,9 @@ Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curv
 
 Status add_curve(const Samples& samples, Curves* curves) {
   Array<uint32_t> kept(curves->start.context());
-  TRY(thin(samples, &kept));
-  return fit_curve(samples, kept.span(), curves);
+  Pace pace(curves->start.context());
+  TRY(thin(samples, &pace, &kept));
+  return fit_curve(samples, kept.span(), &pace, curves);
 }
 
 CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s) {
@@ -20635,12 +20744,13 @@ static double square_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
   return dot(d, d);
 }
 
-LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed) {
+Status distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed, Pace* pace,
+                        LineDistance* result) {
   /* The search begins a little before the last nearest edge, and goes on beyond the nearest one so */
   /* far for this many edges and for the way that the samples went. */
   constexpr size_t k_back = 4, k_patience = 16;
-  LineDistance result;
-  if (line.size() < 2) return result;
+  *result = {};
+  if (line.size() < 2) return {};
   const size_t edges = line.size() - 1;
   size_t from = 0;
   for (size_t i = 0; i < samples.size(); ++i) {
@@ -20652,6 +20762,7 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
         closed ? (from + edges - k_back % edges) % edges : from - (from < k_back ? from : k_back);
     for (size_t step = 0; step < edges; ++step) {
       if (!closed && from + step >= edges) break;
+      TRY(pace->after());
       const size_t e = (from + step) % edges;
       const double square = square_distance(samples[i], line[e], line[e + 1]);
       if (best < 0.0 || square < best) {
@@ -20667,10 +20778,10 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
       }
     }
     from = nearest;
-    result.sum_of_squares += best;
-    if (best > result.greatest * result.greatest) result.greatest = std::sqrt(best);
+    result->sum_of_squares += best;
+    if (best > result->greatest * result->greatest) result->greatest = std::sqrt(best);
   }
-  return result;
+  return {};
 }
 
 }  /* namespace wireskin::curves */
@@ -20679,28 +20790,30 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
 /* ======== begin src/curves/sides.cpp ======== */
 namespace wireskin::curves {
 
-static Status fit_right_of_curve(const RightSamples& samples, size_t c, Curves* curves,
+static Status fit_right_of_curve(const RightSamples& samples, size_t c, Pace* pace, Curves* curves,
                                  SplineScratch* scratch) {
   const size_t first = curves->start[c], count = curves->start[c + 1] - first;
   const Span<const double> knots = curves->knot.span().part(first, count);
   const Span<Vec3> values = curves->right.span().part(first, count);
   const Span<Vec3> moments = curves->right_moment.span().part(first, count);
   for (size_t k = 0; k < count; ++k) {
+    TRY(pace->after());
     values[k] = samples.normal[samples.start[c] + curves->sample[first + k]];
   }
   const bool closed = curves->sample[first] == curves->sample[first + count - 1];
   return fit_spline(knots, values, closed ? SplineEnd::periodic : SplineEnd::clamped,
                     parabola_tangent(knots, values, false), parabola_tangent(knots, values, true),
-                    moments, scratch);
+                    pace, moments, scratch);
 }
 
 Status fit_right_normals(const RightSamples& samples, Curves* curves) {
   SplineScratch scratch(curves->start.context());
-  TRY(curves->right.copy(curves->normal.span()));
-  TRY(curves->right_moment.copy(curves->normal_moment.span()));
+  Pace pace(curves->start.context());
+  TRY(copy_in_parts(curves->normal, &curves->right));
+  TRY(copy_in_parts(curves->normal_moment, &curves->right_moment));
   for (size_t c = 0; c < curves->size(); ++c) {
-    if (samples.sharp[c]) TRY(fit_right_of_curve(samples, c, curves, &scratch));
-    if (c % 256 == 255) TRY(curves->start.context().checkpoint());
+    TRY(pace.after());
+    if (samples.sharp[c]) TRY(fit_right_of_curve(samples, c, &pace, curves, &scratch));
   }
   return {};
 }
@@ -21131,6 +21244,7 @@ struct Turn {
 
 static constexpr double k_sharp = 0.60141159900854613;  /* between unit directions 35 degrees apart */
 static constexpr uint32_t k_wide = 3;
+static constexpr size_t k_steps_of_bend = 8;  /* what looking at a place takes */
 
 /* Nothing where the chain ends before that. */
 static Bend bend_at(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place,
@@ -21167,9 +21281,10 @@ static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
 /* transverse axes have the lower quartile .76 sigma. */
 static Status noise_of(Span<const Turn> turns, Array<double>* moves, double* sigma) {
   constexpr double k_quartile_of_rayleigh = 0.76;
+  Context& context = moves->context();
   TRY(moves->resize(turns.size()));
-  for (size_t i = 0; i < turns.size(); ++i) (*moves)[i] = turns[i].narrow.move;
-  sort(moves->span(), [](double a, double b) { return a < b; });
+  TRY(in_parts(context, turns.size(), [&](size_t i) { (*moves)[i] = turns[i].narrow.move; }));
+  TRY(sort_in_parts(context, moves->span(), [](double a, double b) { return a < b; }));
   *sigma = (*moves)[turns.size() / 4] / k_quartile_of_rayleigh;
   return {};
 }
@@ -21193,39 +21308,40 @@ static Status mark_corners_of(double noise, bool closed, Span<const Turn> turns,
   if (turns.empty()) return {};
   size_t sharp = 0, flat = 0;
   double sigma = noise;
-  for (const Turn& turn : turns) {
-    sharp += turn.narrow.turn > k_sharp;
-    flat += turn.flat;
-  }
+  TRY(in_parts(moves->context(), turns.size(), [&](size_t i) {
+    sharp += turns[i].narrow.turn > k_sharp;
+    flat += turns[i].flat;
+  }));
   const bool in_space = turns.size() >= k_statistics && 5 * flat < turns.size();
   const bool polygon = !(noise > 0.0) && !in_space && 4 * sharp > 3 * turns.size();
   if (!(noise > 0.0)) TRY(noise_of(turns, moves, &sigma));
-  for (size_t i = 0; i < turns.size(); ++i) {
+  return in_parts(moves->context(), turns.size(), [&](size_t i) {
     const Bend &narrow = turns[i].narrow, &wide = turns[i].wide;
-    if (!(narrow.turn > k_sharp)) continue;
+    if (!(narrow.turn > k_sharp)) return;
     const bool alone =
         wide.turn > k_sharp && wide.move > k_contrast * sigma && turns_most(turns, i, closed);
     corner[turns[i].place] = polygon || alone || narrow.move > k_contrast * sigma;
-  }
-  return {};
+  });
 }
 
 static Status mark_corners(Context& context, const Arcs& arcs, double noise, Chains* chains) {
   Array<Turn> turns(context);
   Array<double> moves(context);
+  Pace pace(context);
   TRY(turns.reserve(chains->vertex.size()));
-  TRY(chains->corner.assign(chains->vertex.size(), 0));
+  TRY(assign_in_parts(chains->vertex.size(), 0, &chains->corner));
   for (uint32_t c = 0; c < chains->size(); ++c) {
     const bool closed = chains->closed[c] != 0;
     turns.clear();
     for (uint32_t i = chains->start[c]; i < chains->start[c + 1]; ++i) {
+      TRY(pace.after(k_steps_of_bend));
       const bool end = i == chains->start[c] || i + 1 == chains->start[c + 1];
       if (!closed && end) continue;
       turns.push_reserved({i, bend_at(arcs, *chains, c, i, 1), bend_at(arcs, *chains, c, i, k_wide),
                            is_flat(arcs, *chains, c, i)});
     }
     TRY(mark_corners_of(noise, closed, turns.span(), &moves, chains->corner.span()));
-    if (c % 1024 == 0) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }
@@ -27704,19 +27820,22 @@ static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, 
 
 Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
                   Array<uint32_t>* node_of_sample) {
-  Array<uint32_t> order(nodes->context());
+  Context& context = nodes->context();
+  Array<uint32_t> order(context);
+  Pace pace(context);
   TRY(order.reserve(samples.number.size()));
-  TRY(node_of_sample->assign(samples.number.size(), k_none));
-  for (uint32_t i = 0; i < samples.number.size(); ++i) {
-    if (samples.number[i] != k_none) order.push_reserved(i);
-  }
+  TRY(assign_in_parts(samples.number.size(), k_none, node_of_sample));
+  TRY(in_parts(context, samples.number.size(), [&](size_t i) {
+    if (samples.number[i] != k_none) order.push_reserved(static_cast<uint32_t>(i));
+  }));
   const Span<const uint32_t> number = samples.number;
-  sort(order.span(), [number](uint32_t a, uint32_t b) {
+  TRY(sort_in_parts(context, order.span(), [number](uint32_t a, uint32_t b) {
     return number[a] != number[b] ? number[a] < number[b] : a < b;
-  });
+  }));
   nodes->clear();
   for (size_t first = 0, end = 0; first < order.size(); first = end) {
     while (end < order.size() && number[order[end]] == number[order[first]]) ++end;
+    TRY(pace.after(end - first));
     if (end - first < 2) continue;
     Node node;
     TRY(merge(samples, order.span().part(first, end - first), tolerance, &node));
@@ -31316,12 +31435,12 @@ static Span<const uint32_t> kept_of_curve(const KeptSamples& samples, size_t cur
   return samples.kept.part(first, samples.kept_start[curve + 1] - first);
 }
 
-static uint32_t count_nodes(const KeptSamples& samples) {
-  uint32_t nodes = 0;
-  for (const uint32_t node : samples.node) {
-    if (node != k_none && node >= nodes) nodes = node + 1;
-  }
-  return nodes;
+static Status count_nodes(Context& context, const KeptSamples& samples, uint32_t* nodes) {
+  *nodes = 0;
+  return in_parts(context, samples.node.size(), [&](size_t i) {
+    const uint32_t node = samples.node[i];
+    if (node != k_none && node >= *nodes) *nodes = node + 1;
+  });
 }
 
 /* Which part each curve is of, parts being numbered in the order of their first curves. */
@@ -31329,11 +31448,15 @@ static Status number_parts(const KeptSamples& samples, Array<uint32_t>* part, ui
   const uint32_t curves = static_cast<uint32_t>(samples.closed.size());
   DisjointSets sets(part->context());
   Array<uint32_t> curve_of_node(part->context());
+  Pace pace(part->context());
+  uint32_t nodes = 0;
   TRY(sets.reset(curves));
-  TRY(curve_of_node.assign(count_nodes(samples), k_none));
+  TRY(count_nodes(part->context(), samples, &nodes));
+  TRY(assign_in_parts(nodes, k_none, &curve_of_node));
   TRY(part->resize(curves));
   for (uint32_t c = 0; c < curves; ++c) {
     for (const uint32_t k : kept_of_curve(samples, c)) {
+      TRY(pace.after());
       const uint32_t node = samples.node[samples.start[c] + k];
       if (node == k_none) continue;
       if (curve_of_node[node] == k_none) curve_of_node[node] = c;
@@ -31371,6 +31494,7 @@ Status KeptParts::copy_curves(Span<const uint32_t> order) {
   TRY(first_kept_.resize(first_curve_.size()));
   TRY(kept_start_.reserve(order.size() + count()));
   TRY(kept_.reserve(samples_.kept.size()));
+  Pace pace(kept_.context());
   kept_start_.clear();
   kept_.clear();
   first_kept_[0] = 0;
@@ -31379,7 +31503,10 @@ Status KeptParts::copy_curves(Span<const uint32_t> order) {
     for (uint32_t i = first_curve_[p]; i < first_curve_[p + 1]; ++i) {
       start_[i] = samples_.start[order[i]];
       closed_[i] = samples_.closed[order[i]];
-      for (const uint32_t k : kept_of_curve(samples_, order[i])) kept_.push_reserved(k);
+      for (const uint32_t k : kept_of_curve(samples_, order[i])) {
+        TRY(pace.after());
+        kept_.push_reserved(k);
+      }
       kept_start_.push_reserved(static_cast<uint32_t>(kept_.size()) - first_kept_[p]);
     }
     first_kept_[p + 1] = static_cast<uint32_t>(kept_.size());
@@ -31402,13 +31529,17 @@ KeptSamples KeptParts::part(uint32_t p) const {
 /* Every node is of one part only, so one array of numbers serves all of them. */
 Status KeptParts::number_nodes() {
   Array<uint32_t> number(node_.context());
-  TRY(number.assign(count_nodes(samples_), k_none));
-  TRY(node_.assign(samples_.node.size(), k_none));
+  Pace pace(node_.context());
+  uint32_t all = 0;
+  TRY(count_nodes(node_.context(), samples_, &all));
+  TRY(assign_in_parts(all, k_none, &number));
+  TRY(assign_in_parts(samples_.node.size(), k_none, &node_));
   for (uint32_t p = 0; p < count(); ++p) {
     const KeptSamples own = part(p);
     uint32_t nodes = 0;
     for (uint32_t c = 0; c < own.closed.size(); ++c) {
       for (const uint32_t k : kept_of_curve(own, c)) {
+        TRY(pace.after());
         const uint32_t sample = own.start[c] + k, node = samples_.node[sample];
         if (node == k_none) continue;
         if (number[node] == k_none) number[node] = nodes++;
@@ -36116,13 +36247,12 @@ namespace wireskin {
 /* Half the length of the curve edges at each vertex: how much of its curve a vertex stands for. */
 static Status curve_shares(const Surface& surface, Array<double>* share) {
   TRY(assign_in_parts(surface.position.size(), 0.0, share));
-  for (size_t e = 0; e < surface.curve_edge.size(); e += 2) {
-    const uint32_t a = surface.curve_edge[e], b = surface.curve_edge[e + 1];
+  return in_parts(share->context(), surface.curve_edge_curve.size(), [&](size_t e) {
+    const uint32_t a = surface.curve_edge[2 * e], b = surface.curve_edge[2 * e + 1];
     const double half = 0.5 * length(surface.position[b] - surface.position[a]);
     (*share)[a] += half;
     (*share)[b] += half;
-  }
-  return {};
+  });
 }
 
 /* In units of the spacing, and of the diagonal of the bounding box. */
@@ -36151,14 +36281,14 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
   if (!any) return {};
   TRY(curve_shares(surface, &constraints->share));
   TRY(assign_in_parts(n, -1.0, &constraints->cutoff));
-  for (size_t e = 0; e < surface.curve_edge.size(); ++e) {
+  TRY(in_parts(context, surface.curve_edge.size(), [&](size_t e) {
     double& cutoff = constraints->cutoff[surface.curve_edge[e]];
     const uint32_t curve = surface.curve_edge_curve[e / 2];
     const bool sharp = !set.sharp.empty() && set.sharp[curve];  /* these hold in any case */
     const bool holds = sharp || set.soft[curve] < k_least_cutoff * surface.counts.spacing;
     const double own = holds ? 0.0 : set.soft[curve];
     if (cutoff < 0.0 || own < cutoff) cutoff = own;
-  }
+  }));
   return in_parts(context, n, [&](size_t v) {
     if (constraints->cutoff[v] < 0.0) constraints->cutoff[v] = 0.0;
     if (constraints->cutoff[v] > 0.0) constraints->held[v] = 0;
@@ -36451,19 +36581,23 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
 Status measure_constraints(const CurveSet& set, Span<const Vec3> given, Surface* surface) {
   Context& context = surface->position.context();
   Array<Vec3> line(context);
+  Pace pace(context);
   double sum = 0.0;
   size_t edge = 0;
   for (uint32_t c = 0; c < set.closed.size(); ++c) {
+    TRY(pace.after());
     line.clear();
     for (; edge < surface->curve_edge_curve.size() && surface->curve_edge_curve[edge] == c;
          ++edge) {
+      TRY(pace.after());
       if (line.empty()) TRY(line.push(surface->position[surface->curve_edge[2 * edge]]));
       TRY(line.push(surface->position[surface->curve_edge[2 * edge + 1]]));
     }
     if (line.empty()) continue;  /* a point, or a curve of patches that were left out */
     const size_t first = set.start[c], count = set.start[c + 1] - first;
-    const curves::LineDistance distance =
-        curves::distance_to_line(given.part(first, count), line.span(), set.closed[c] != 0);
+    curves::LineDistance distance;
+    TRY(curves::distance_to_line(given.part(first, count), line.span(), set.closed[c] != 0, &pace,
+                                 &distance));
     sum += distance.sum_of_squares;
     if (distance.greatest > surface->counts.greatest_distance) {
       surface->counts.greatest_distance = distance.greatest;
@@ -36513,22 +36647,23 @@ static Status at_curve(Status status, uint32_t curve) {
 
 /* What sharp curves need besides: the normals on their right, and those of their nodes. */
 static Status fit_sides(const CurveSet& set, Span<network::Node> nodes, curves::Curves* fitted) {
+  Pace pace(fitted->start.context());
   for (uint32_t c = 0; c < set.sharp.size(); ++c) {
     if (set.sharp[c] && !is_point(set, c))
-      TRY(at_curve(curves::check_samples(right_samples_of(set, c)), c));
+      TRY(at_curve(curves::check_samples(right_samples_of(set, c), &pace), c));
   }
   TRY(curves::fit_right_normals({set.start, set.right, set.sharp}, fitted));
   return network::complete_node_normals(*fitted, nodes);
 }
 
 /* Gives the samples of every node its position and normal; at creases curves keep their own. */
-static void unite_nodes(const CurveSet& set, Span<const uint32_t> node,
-                        Span<const network::Node> nodes) {
-  for (size_t i = 0; i < node.size(); ++i) {
-    if (node[i] == k_none) continue;
+static Status unite_nodes(Context& context, const CurveSet& set, Span<const uint32_t> node,
+                          Span<const network::Node> nodes) {
+  return in_parts(context, node.size(), [&](size_t i) {
+    if (node[i] == k_none) return;
     set.position[i] = nodes[node[i]].position;
     if (!nodes[node[i]].crease) set.normal[i] = nodes[node[i]].normal;
-  }
+  });
 }
 
 /* Thins all curves, takes the noise out of what is kept, and lets nodes move with their curves. */
@@ -36536,16 +36671,21 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
                             const network::SmoothingOptions& options, Span<network::Node> nodes,
                             Array<uint32_t>* kept_start, Array<uint32_t>* kept, Counts* counts) {
   Array<uint32_t> thinned(context);
+  Pace pace(context);
   TRY(kept_start->push(0));
+  TRY(kept->reserve(node.size()));
   for (uint32_t c = 0; c < counts->curves; ++c) {
     /* Neighbours that differed by less than the tolerance may have become one point. */
     if (is_point(set, c)) {
       TRY(thinned.assign(1, 0));
     } else {
-      TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
-      TRY(at_curve(curves::thin(samples_of(set, node, c), &thinned), c));
+      TRY(at_curve(curves::check_samples(samples_of(set, {}, c), &pace), c));
+      TRY(at_curve(curves::thin(samples_of(set, node, c), &pace, &thinned), c));
     }
-    for (uint32_t i : thinned) TRY(kept->push(i));
+    for (const uint32_t i : thinned) {
+      TRY(pace.after());
+      kept->push_reserved(i);
+    }
     TRY(kept_start->push(static_cast<uint32_t>(kept->size())));
   }
   if (options.noise == network::Noise::none) return {};
@@ -36553,18 +36693,17 @@ static Status smooth_curves(Context& context, const CurveSet& set, Span<const ui
   /* field in their place has no noise. */
   Array<Vec3> constant(context);
   const bool creased = !set.sharp.empty();
-  if (creased) TRY(constant.assign(set.normal.size(), Vec3{0, 0, 1}));
+  if (creased) TRY(assign_in_parts(set.normal.size(), Vec3{0, 0, 1}, &constant));
   const Span<Vec3> normals = creased ? constant.span() : set.normal;
   TRY(network::smooth_samples(
       context,
       {set.start, kept_start->span(), kept->span(), node, {}, set.closed, set.position, normals},
       options, &counts->noise));
-  for (size_t i = 0; i < node.size(); ++i) {
-    if (node[i] == k_none) continue;
+  return in_parts(context, node.size(), [&](size_t i) {
+    if (node[i] == k_none) return;
     nodes[node[i]].position = set.position[i];
     if (!creased) nodes[node[i]].normal = set.normal[i];
-  }
-  return {};
+  });
 }
 
 /* Checks every curve, unites the samples of each node, smooths and fits the splines. */
@@ -36573,22 +36712,25 @@ Status fit_curves(Context& context, const CurveSet& set, double size,
                   curves::Curves* fitted, Counts* counts) {
   constexpr double k_node_tolerance = 1e-9;
   Array<uint32_t> node(context), kept_start(context), kept(context);
+  Pace pace(context);
   counts->curves = static_cast<uint32_t>(set.closed.size());
   for (uint32_t c = 0; c < counts->curves; ++c) {
-    if (!is_point(set, c)) TRY(at_curve(curves::check_samples(samples_of(set, {}, c)), c));
+    if (is_point(set, c)) continue;
+    TRY(at_curve(curves::check_samples(samples_of(set, {}, c), &pace), c));
   }
   const network::SampleNumbers samples = {set.start,  set.number, set.position,
                                           set.normal, set.sharp,  set.right};
   TRY(network::find_nodes(samples, k_node_tolerance * size, nodes, &node));
   TRY(network::add_loose_ends(samples, set.closed, nodes, node.span()));
   counts->nodes = static_cast<uint32_t>(nodes->size());
-  unite_nodes(set, node.span(), nodes->span());
+  TRY(unite_nodes(context, set, node.span(), nodes->span()));
   TRY(smooth_curves(context, set, node.span(), smoothing, nodes->span(), &kept_start, &kept,
                     counts));
+  TRY(curves::reserve_knots(kept.size() + counts->curves, fitted));  /* closed ones repeat the first */
   for (uint32_t c = 0; c < counts->curves; ++c) {
     const Span<const uint32_t> own =
         kept.span().part(kept_start[c], kept_start[c + 1] - kept_start[c]);
-    TRY(at_curve(curves::fit_curve(samples_of(set, node.span(), c), own, fitted), c));
+    TRY(at_curve(curves::fit_curve(samples_of(set, node.span(), c), own, &pace, fitted), c));
     TRY(context.progress(static_cast<double>(c + 1) / counts->curves));
   }
   return set.sharp.empty() ? Status{} : fit_sides(set, nodes->span(), fitted);
@@ -36902,11 +37044,13 @@ struct ArcPlace {
 static Status place_vertices(const flow::Flow& flow, Array<ArcPlace>* places) {
   const flow::Arcs& arcs = flow.arcs;
   const flow::Samples& samples = flow.samples;
-  TRY(places->assign(arcs.vertex.size(), ArcPlace{0, 0, 0}));
+  Pace pace(places->context());
+  TRY(assign_in_parts(arcs.vertex.size(), ArcPlace{0, 0, 0}, places));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
     uint32_t at = first;
     for (uint32_t i = arcs.start[a]; i < arcs.start[a + 1]; ++i) {
+      TRY(pace.after());
       while (at + 1 < last && samples.along[at + 1] <= arcs.along[i]) ++at;
       (*places)[arcs.path[i]] = {first, last, at};
     }
@@ -36927,9 +37071,9 @@ Status measure_given(const flow::Flow& flow, Span<const Vec3> given, Span<const 
   Array<ArcPlace> places(surface->position.context());
   TRY(place_vertices(flow, &places));
   double greatest = 0.0, sum = 0.0;
-  for (size_t s = 0; s < given.size(); ++s) {
+  TRY(in_parts(places.context(), given.size(), [&](size_t s) {
     const ArcPlace& place = places[flow.arcs.sample_vertex[s]];
-    if (place.first == place.last) continue;
+    if (place.first == place.last) return;
     /* Noise may have brought the sample beside a neighbour of its edge. */
     const uint32_t low = place.before > place.first ? place.before - 1 : place.first;
     const uint32_t high = place.before + 2 < place.last ? place.before + 2 : place.last;
@@ -36941,7 +37085,7 @@ Status measure_given(const flow::Flow& flow, Span<const Vec3> given, Span<const 
     }
     greatest = larger(greatest, least);
     sum += least;
-  }
+  }));
   surface->counts.greatest_distance = std::sqrt(greatest);
   if (!given.empty())
     surface->counts.mean_square_distance = sum / static_cast<double>(given.size());
@@ -37284,9 +37428,11 @@ static Status read_flow_curves(const wsk_curve* curves, size_t count, FlowInput*
   TRY(input->number.reserve(total));
   if (normals) TRY(normal->reserve(total));
   input->start.push_reserved(0);
+  Pace pace(input->position.context());
   for (size_t c = 0; c < count; ++c) {
     const wsk_curve& curve = curves[c];
     for (size_t i = 0; i < curve.sample_count; ++i) {
+      TRY(pace.after());
       Place place;
       place.curve = static_cast<uint32_t>(c);
       place.sample = static_cast<uint32_t>(i);
@@ -37334,7 +37480,8 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   TRY(read_flow_curves(curves, count, &input, &made->normal, &made->bare_curves));
   TRY(find_scale(input.position.span(), &made->exponent));
   const Scale scale(-made->exponent);
-  for (Vec3& p : input.position) p = scale(p);
+  TRY(in_parts(context, input.position.size(),
+               [&](size_t i) { input.position[i] = scale(input.position[i]); }));
   flow::FlowOptions inside;
   inside.sampling = scale(flow_options.sampling);
   inside.spacing = scale(options.spacing);

@@ -1,5 +1,7 @@
 #include "api/curves.h"
 
+#include "base/in_parts.h"
+
 namespace wireskin::api {
 
 // A point has no sides.
@@ -41,9 +43,11 @@ static Status read_side_normal(const double* data, size_t stride, size_t i, cons
   return data == nullptr ? Status{} : read_normal({data, stride}, i, place, normal);
 }
 
-static Status read_curve(const wsk_curve& curve, uint32_t index, CurveStorage* storage) {
+static Status read_curve(const wsk_curve& curve, uint32_t index, Pace* pace,
+                         CurveStorage* storage) {
   const Rows positions = {curve.positions, curve.position_stride};
   for (size_t i = 0; i < curve.sample_count; ++i) {
+    TRY(pace->after());
     const Place place = sample_place(index, i);
     Vec3 position, normal;
     TRY(read_position(positions, i, place, &position));
@@ -83,8 +87,10 @@ Status read_curves(const wsk_curve* curves, size_t count, CurveStorage* storage)
     for (size_t c = 0; c < count; ++c) storage->sharp[c] = is_sharp(curves[c]);
   }
   storage->start.push_reserved(0);
+  Pace pace(storage->position.context());
   for (size_t c = 0; c < count; ++c) {
-    TRY(read_curve(curves[c], static_cast<uint32_t>(c), storage));
+    TRY(pace.after());
+    TRY(read_curve(curves[c], static_cast<uint32_t>(c), &pace, storage));
   }
   return {};
 }

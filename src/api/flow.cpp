@@ -133,9 +133,11 @@ static Status read_flow_curves(const wsk_curve* curves, size_t count, FlowInput*
   TRY(input->number.reserve(total));
   if (normals) TRY(normal->reserve(total));
   input->start.push_reserved(0);
+  Pace pace(input->position.context());
   for (size_t c = 0; c < count; ++c) {
     const wsk_curve& curve = curves[c];
     for (size_t i = 0; i < curve.sample_count; ++i) {
+      TRY(pace.after());
       Place place;
       place.curve = static_cast<uint32_t>(c);
       place.sample = static_cast<uint32_t>(i);
@@ -183,7 +185,8 @@ static Status fill_flow(const wsk_curve* curves, size_t count, const wsk_options
   TRY(read_flow_curves(curves, count, &input, &made->normal, &made->bare_curves));
   TRY(find_scale(input.position.span(), &made->exponent));
   const Scale scale(-made->exponent);
-  for (Vec3& p : input.position) p = scale(p);
+  TRY(in_parts(context, input.position.size(),
+               [&](size_t i) { input.position[i] = scale(input.position[i]); }));
   flow::FlowOptions inside;
   inside.sampling = scale(flow_options.sampling);
   inside.spacing = scale(options.spacing);

@@ -81,6 +81,12 @@ class Array {
     return {};
   }
 
+  // Where what was there is not needed: it is given back before there is more, instead of copied.
+  Status resize_anew(size_t size) {
+    if (size > room_) free();
+    return resize(size);
+  }
+
   Status assign(size_t size, const T& value) {
     const T kept = value;  // as in push()
     TRY(resize(size));

@@ -37,7 +37,7 @@ inline constexpr size_t k_light_steps_per_checkpoint = 16 * k_steps_per_checkpoi
 template <typename T>
 Status assign_in_parts(size_t size, const std::enable_if_t<true, T>& value, Array<T>* array) {
   const T kept = value;  // it may live in the memory that resize() gives back
-  TRY(array->resize(size));
+  TRY(array->resize_anew(size));
   return in_parts<k_light_steps_per_checkpoint>(array->context(), size,
                                                 [&](size_t i) { (*array)[i] = kept; });
 }

@@ -46,7 +46,7 @@ static bool bends_over(const Samples& samples, size_t before, size_t i) {
          dot(conormal(samples, before), conormal(samples, i)) > k_twist_cosine;
 }
 
-Status check_samples(const Samples& samples) {
+Status check_samples(const Samples& samples, Pace* pace) {
   const size_t n = samples.position.size();
   if (n < (samples.closed ? 3u : 2u)) {
     return fail(Code::too_few_samples, samples.closed
@@ -57,6 +57,7 @@ Status check_samples(const Samples& samples) {
   for (size_t i = 1; i < n && !moves; ++i) moves = samples.position[i] != samples.position[0];
   if (!moves) return fail(Code::zero_length_curve, "all samples of the curve are the same point");
   for (size_t i = samples.closed ? 0 : 1; i < n; ++i) {
+    TRY(pace->after());
     const size_t before = i == 0 ? n - 1 : i - 1;
     if (samples.position[i] == samples.position[before]) {
       return fail_sample(Code::duplicate_samples,
@@ -85,12 +86,16 @@ Status check_samples(const Samples& samples) {
   return {};
 }
 
-static double mean_spacing(const Samples& samples) {
+static Status measure_spacing(const Samples& samples, Pace* pace, double* mean) {
   const size_t n = samples.position.size();
   double sum = 0.0;
-  for (size_t i = 1; i < n; ++i) sum += length(samples.position[i] - samples.position[i - 1]);
+  for (size_t i = 1; i < n; ++i) {
+    TRY(pace->after());
+    sum += length(samples.position[i] - samples.position[i - 1]);
+  }
   if (samples.closed) sum += length(samples.position[0] - samples.position[n - 1]);
-  return sum / static_cast<double>(samples.closed ? n : n - 1);
+  *mean = sum / static_cast<double>(samples.closed ? n : n - 1);
+  return {};
 }
 
 static uint32_t first_node(const Samples& samples) {
@@ -101,16 +106,19 @@ static uint32_t first_node(const Samples& samples) {
 }
 
 // A sample that must stay pushes out a droppable one just before it.
-Status thin(const Samples& samples, Array<uint32_t>* kept) {
+Status thin(const Samples& samples, Pace* pace, Array<uint32_t>* kept) {
   const uint32_t start = samples.closed ? first_node(samples) : 0;
   const uint32_t n = static_cast<uint32_t>(samples.position.size());
-  const double least = 0.5 * mean_spacing(samples);
+  double mean = 0.0;
+  TRY(measure_spacing(samples, pace, &mean));
+  const double least = 0.5 * mean;
   TRY(kept->reserve(n + 1));
   kept->clear();
   const auto near = [&](uint32_t a, uint32_t b) {
     return length(samples.position[a] - samples.position[b]) < least;
   };
   for (uint32_t k = 0; k < n; ++k) {
+    TRY(pace->after());
     const uint32_t i = samples.closed ? (start + k) % n : k;
     const bool end = k == 0 || (!samples.closed && k == n - 1);
     if (samples.node[i] == k_none && !end) {
@@ -126,6 +134,7 @@ Status thin(const Samples& samples, Array<uint32_t>* kept) {
   }
   bool whole = kept->size() >= (samples.closed ? 3u : 2u);
   for (size_t k = samples.closed ? 0 : 1; whole && k < kept->size(); ++k) {
+    TRY(pace->after());
     const uint32_t before = (*kept)[k == 0 ? kept->size() - 1 : k - 1];
     whole = samples.position[(*kept)[k]] != samples.position[before];
   }
@@ -133,7 +142,10 @@ Status thin(const Samples& samples, Array<uint32_t>* kept) {
   // line to and fro or to a point.
   if (!whole) {
     kept->clear();
-    for (uint32_t k = 0; k < n; ++k) kept->push_reserved(samples.closed ? (start + k) % n : k);
+    for (uint32_t k = 0; k < n; ++k) {
+      TRY(pace->after());
+      kept->push_reserved(samples.closed ? (start + k) % n : k);
+    }
   }
   return {};
 }
@@ -184,11 +196,8 @@ Curve Curves::operator[](size_t curve) const {
           node.span().part(first, count)};
 }
 
-// Grows all arrays by half at least, so that many short curves cost linear time.
-static Status make_room(size_t size, Curves* curves) {
-  if (size <= curves->room) return {};
-  const size_t more = curves->room + curves->room / 2;
-  const size_t room = size > more ? size : more;
+Status reserve_knots(size_t room, Curves* curves) {
+  if (room <= curves->room) return {};
   TRY(curves->knot.reserve(room));
   TRY(curves->arc.reserve(room));
   TRY(curves->position.reserve(room));
@@ -201,12 +210,14 @@ static Status make_room(size_t size, Curves* curves) {
   return {};
 }
 
-// Room for `count` more knots, not yet filled.
+// Room for `count` more knots, not yet filled. Grows all arrays by half at least, so that many
+// short curves cost linear time.
 static Status extend(size_t count, Curves* curves) {
   const size_t size = curves->knot.size() + count;
   if (size >= k_none) return fail(Code::too_large, "too many samples for 32-bit indices");
   if (curves->start.empty()) TRY(curves->start.push(0));
-  TRY(make_room(size, curves));
+  const size_t half_more = curves->room + curves->room / 2;
+  if (size > curves->room) TRY(reserve_knots(size > half_more ? size : half_more, curves));
   TRY(curves->knot.resize(size));
   TRY(curves->arc.resize(size));
   TRY(curves->position.resize(size));
@@ -218,14 +229,15 @@ static Status extend(size_t count, Curves* curves) {
   return curves->start.push(static_cast<uint32_t>(size));
 }
 
-static Status fit(Span<const double> knots, Span<const Vec3> values, bool closed,
+static Status fit(Span<const double> knots, Span<const Vec3> values, bool closed, Pace* pace,
                   Span<Vec3> moments, SplineScratch* scratch) {
   return fit_spline(knots, values, closed ? SplineEnd::periodic : SplineEnd::clamped,
                     parabola_tangent(knots, values, false), parabola_tangent(knots, values, true),
-                    moments, scratch);
+                    pace, moments, scratch);
 }
 
-Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curves) {
+Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Pace* pace, Curves* curves) {
+  constexpr size_t k_steps_of_arc = 4;
   SplineScratch scratch(curves->start.context());
   const size_t first = curves->knot.size(), count = kept.size() + (samples.closed ? 1 : 0);
   TRY(extend(count, curves));
@@ -233,6 +245,7 @@ Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curv
   const Span<Vec3> positions = curves->position.span().part(first, count);
   const Span<Vec3> normals = curves->normal.span().part(first, count);
   for (size_t k = 0; k < count; ++k) {
+    TRY(pace->after());
     const uint32_t sample = kept[k < kept.size() ? k : 0];
     positions[k] = samples.position[sample];
     normals[k] = samples.normal[sample];
@@ -245,13 +258,14 @@ Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curv
     curves->arc[first] = 0.0;
     return {};
   }
-  TRY(fit(knots, positions, samples.closed, curves->position_moment.span().part(first, count),
+  TRY(fit(knots, positions, samples.closed, pace, curves->position_moment.span().part(first, count),
           &scratch));
-  TRY(fit(knots, normals, samples.closed, curves->normal_moment.span().part(first, count),
+  TRY(fit(knots, normals, samples.closed, pace, curves->normal_moment.span().part(first, count),
           &scratch));
   const Spline spline = (*curves)[curves->size() - 1].position;
   double arc = 0.0;
   for (size_t k = 0; k < count; ++k) {
+    TRY(pace->after(k_steps_of_arc));
     if (k > 0) arc += arc_in_interval(spline, k - 1, knots[k]);
     curves->arc[first + k] = arc;
   }
@@ -260,8 +274,9 @@ Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curv
 
 Status add_curve(const Samples& samples, Curves* curves) {
   Array<uint32_t> kept(curves->start.context());
-  TRY(thin(samples, &kept));
-  return fit_curve(samples, kept.span(), curves);
+  Pace pace(curves->start.context());
+  TRY(thin(samples, &pace, &kept));
+  return fit_curve(samples, kept.span(), &pace, curves);
 }
 
 CurvePoint point_at(const Curve& curve, uint32_t first, uint32_t last, double s) {

@@ -56,14 +56,17 @@ struct Curves {
 
 // Checks that neighbouring samples differ, that there are enough of them and that normals do not
 // jump. The place of a failure names the sample; the caller knows the curve.
-Status check_samples(const Samples& samples);
+Status check_samples(const Samples& samples, Pace* pace);
 
 // The samples to interpolate, in order along the curve; a closed curve begins at its first node.
-Status thin(const Samples& samples, Array<uint32_t>* kept);
+Status thin(const Samples& samples, Pace* pace, Array<uint32_t>* kept);
+
+// Room for so many knots in all, for callers who know: growing copies.
+Status reserve_knots(size_t count, Curves* curves);
 
 // Fits one more curve through the samples `kept`, in that order; the others are not read. Smoothing
 // comes between thinning and this. An open curve of one sample is a point: one knot, no interval.
-Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Curves* curves);
+Status fit_curve(const Samples& samples, Span<const uint32_t> kept, Pace* pace, Curves* curves);
 
 // Thins and fits at once.
 Status add_curve(const Samples& samples, Curves* curves);

@@ -11,12 +11,13 @@ static double square_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
   return dot(d, d);
 }
 
-LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed) {
+Status distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed, Pace* pace,
+                        LineDistance* result) {
   // The search begins a little before the last nearest edge, and goes on beyond the nearest one so
   // far for this many edges and for the way that the samples went.
   constexpr size_t k_back = 4, k_patience = 16;
-  LineDistance result;
-  if (line.size() < 2) return result;
+  *result = {};
+  if (line.size() < 2) return {};
   const size_t edges = line.size() - 1;
   size_t from = 0;
   for (size_t i = 0; i < samples.size(); ++i) {
@@ -28,6 +29,7 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
         closed ? (from + edges - k_back % edges) % edges : from - (from < k_back ? from : k_back);
     for (size_t step = 0; step < edges; ++step) {
       if (!closed && from + step >= edges) break;
+      TRY(pace->after());
       const size_t e = (from + step) % edges;
       const double square = square_distance(samples[i], line[e], line[e + 1]);
       if (best < 0.0 || square < best) {
@@ -43,10 +45,10 @@ LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, b
       }
     }
     from = nearest;
-    result.sum_of_squares += best;
-    if (best > result.greatest * result.greatest) result.greatest = std::sqrt(best);
+    result->sum_of_squares += best;
+    if (best > result->greatest * result->greatest) result->greatest = std::sqrt(best);
   }
-  return result;
+  return {};
 }
 
 }  // namespace wireskin::curves

@@ -6,7 +6,7 @@
 // cost is linear and other passes of the curve nearby do not count.
 #pragma once
 
-#include "base/array.h"
+#include "base/in_parts.h"
 #include "num/vec.h"
 
 namespace wireskin::curves {
@@ -16,6 +16,7 @@ struct LineDistance {
   double sum_of_squares = 0.0;
 };
 
-LineDistance distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed);
+Status distance_to_line(Span<const Vec3> samples, Span<const Vec3> line, bool closed, Pace* pace,
+                        LineDistance* result);
 
 }  // namespace wireskin::curves

@@ -11,25 +11,32 @@ static Vec3 chord_slope(Span<const double> knots, Span<const Vec3> values, size_
 // pivoting, in place: `diagonal` and `rhs` are overwritten, `rhs` becomes the solution. off[i]
 // couples unknowns i and i + 1.
 template <typename Value>
-static void solve_tridiagonal(Span<double> diagonal, Span<const double> off, Span<Value> rhs) {
+static Status solve_tridiagonal(Span<double> diagonal, Span<const double> off, Span<Value> rhs,
+                                Pace* pace) {
   const size_t n = diagonal.size();
   for (size_t i = 1; i < n; ++i) {
+    TRY(pace->after());
     const double factor = off[i - 1] / diagonal[i - 1];
     diagonal[i] -= factor * off[i - 1];
     rhs[i] = rhs[i] - factor * rhs[i - 1];
   }
   rhs[n - 1] = (1.0 / diagonal[n - 1]) * rhs[n - 1];
-  for (size_t i = n - 1; i-- > 0;) rhs[i] = (1.0 / diagonal[i]) * (rhs[i] - off[i] * rhs[i + 1]);
+  for (size_t i = n - 1; i-- > 0;) {
+    TRY(pace->after());
+    rhs[i] = (1.0 / diagonal[i]) * (rhs[i] - off[i] * rhs[i + 1]);
+  }
+  return {};
 }
 
 // Moments of an open spline: continuity of the slope at inner knots, and at the ends either no
 // curvature (natural) or the given slope (clamped).
-static void open_moments(Span<const double> knots, Span<const Vec3> values, bool clamped,
-                         const Vec3& tangent_first, const Vec3& tangent_last, Span<double> diagonal,
-                         Span<double> off, Span<Vec3> moments) {
+static Status open_moments(Span<const double> knots, Span<const Vec3> values, bool clamped,
+                           const Vec3& tangent_first, const Vec3& tangent_last, Pace* pace,
+                           Span<double> diagonal, Span<double> off, Span<Vec3> moments) {
   const size_t last = knots.size() - 1;
   for (size_t i = 0; i < last; ++i) off[i] = knots[i + 1] - knots[i];
   for (size_t i = 1; i < last; ++i) {
+    TRY(pace->after());
     diagonal[i] = 2.0 * (off[i - 1] + off[i]);
     moments[i] = 6.0 * (chord_slope(knots, values, i) - chord_slope(knots, values, i - 1));
   }
@@ -38,25 +45,24 @@ static void open_moments(Span<const double> knots, Span<const Vec3> values, bool
     diagonal[last] = 2.0 * off[last - 1];
     moments[0] = 6.0 * (chord_slope(knots, values, 0) - tangent_first);
     moments[last] = 6.0 * (tangent_last - chord_slope(knots, values, last - 1));
-    solve_tridiagonal(diagonal, off, moments);
-    return;
+    return solve_tridiagonal(diagonal, off, moments, pace);
   }
   moments[0] = moments[last] = Vec3{};
-  if (last > 1) {
-    solve_tridiagonal(diagonal.part(1, last - 1), Span<const double>(off.part(1, last - 1)),
-                      moments.part(1, last - 1));
-  }
+  if (last == 1) return {};
+  return solve_tridiagonal(diagonal.part(1, last - 1), Span<const double>(off.part(1, last - 1)),
+                           moments.part(1, last - 1), pace);
 }
 
 // Moments of a closed spline. The cyclic matrix is a tridiagonal one plus a matrix of rank one
 // (Sherman and Morrison): A = T + u u^T / g with u = (g, 0, ..., 0, corner).
-static void periodic_moments(Span<const double> knots, Span<const Vec3> values,
-                             Span<double> diagonal, Span<double> off, Span<double> correction,
-                             Span<Vec3> moments) {
+static Status periodic_moments(Span<const double> knots, Span<const Vec3> values, Pace* pace,
+                               Span<double> diagonal, Span<double> off, Span<double> correction,
+                               Span<Vec3> moments) {
   const size_t n = knots.size() - 1;
   for (size_t i = 0; i < n; ++i) off[i] = knots[i + 1] - knots[i];
   const double corner = off[n - 1];
   for (size_t i = 0; i < n; ++i) {
+    TRY(pace->after());
     const size_t before = i == 0 ? n - 1 : i - 1;
     diagonal[i] = 2.0 * (off[before] + off[i]);
     moments[i] = 6.0 * (chord_slope(knots, values, i) - chord_slope(knots, values, before));
@@ -70,13 +76,18 @@ static void periodic_moments(Span<const double> knots, Span<const Vec3> values,
   // Both systems have the same matrix, and solving overwrites it: keep a copy at the array's end.
   const Span<double> copy = correction.part(n, n);
   for (size_t i = 0; i < n; ++i) copy[i] = diagonal[i];
-  solve_tridiagonal(diagonal.part(0, n), Span<const double>(off.part(0, n)), moments.part(0, n));
-  solve_tridiagonal(copy, Span<const double>(off.part(0, n)), correction.part(0, n));
+  const Span<const double> beside = off.part(0, n);
+  TRY(solve_tridiagonal(diagonal.part(0, n), beside, moments.part(0, n), pace));
+  TRY(solve_tridiagonal(copy, beside, correction.part(0, n), pace));
   const double ratio = corner / g;
   const double scale = 1.0 / (1.0 + correction[0] + ratio * correction[n - 1]);
   const Vec3 projection = scale * (moments[0] + ratio * moments[n - 1]);
-  for (size_t i = 0; i < n; ++i) moments[i] -= correction[i] * projection;
+  for (size_t i = 0; i < n; ++i) {
+    TRY(pace->after());
+    moments[i] -= correction[i] * projection;
+  }
   moments[n] = moments[0];
+  return {};
 }
 
 Vec3 parabola_tangent(Span<const double> knots, Span<const Vec3> values, bool last) {
@@ -102,8 +113,8 @@ Vec3 spline_value(const Spline& spline, size_t i, double t) {
 }
 
 Status fit_spline(Span<const double> knots, Span<const Vec3> values, SplineEnd end,
-                  const Vec3& tangent_first, const Vec3& tangent_last, Span<Vec3> moments,
-                  SplineScratch* scratch) {
+                  const Vec3& tangent_first, const Vec3& tangent_last, Pace* pace,
+                  Span<Vec3> moments, SplineScratch* scratch) {
   const size_t n = knots.size();
   WIRESKIN_ASSERT(n >= (end == SplineEnd::periodic ? 4u : 2u));
   WIRESKIN_ASSERT(values.size() == n && moments.size() == n);
@@ -111,13 +122,11 @@ Status fit_spline(Span<const double> knots, Span<const Vec3> values, SplineEnd e
   TRY(scratch->off.resize(n));
   if (end == SplineEnd::periodic) {
     TRY(scratch->correction.resize(2 * (n - 1)));
-    periodic_moments(knots, values, scratch->diagonal.span(), scratch->off.span(),
-                     scratch->correction.span(), moments);
-  } else {
-    open_moments(knots, values, end == SplineEnd::clamped, tangent_first, tangent_last,
-                 scratch->diagonal.span(), scratch->off.span(), moments);
+    return periodic_moments(knots, values, pace, scratch->diagonal.span(), scratch->off.span(),
+                            scratch->correction.span(), moments);
   }
-  return {};
+  return open_moments(knots, values, end == SplineEnd::clamped, tangent_first, tangent_last, pace,
+                      scratch->diagonal.span(), scratch->off.span(), moments);
 }
 
 }  // namespace wireskin::curves

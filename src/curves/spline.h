@@ -7,7 +7,7 @@
 // 1978, chapter IV.
 #pragma once
 
-#include "base/array.h"
+#include "base/in_parts.h"
 #include "num/vec.h"
 
 namespace wireskin::curves {
@@ -34,8 +34,8 @@ struct SplineScratch {
 // first). `tangent_first` and `tangent_last` are the derivatives at the ends, read when the ends
 // are clamped.
 Status fit_spline(Span<const double> knots, Span<const Vec3> values, SplineEnd end,
-                  const Vec3& tangent_first, const Vec3& tangent_last, Span<Vec3> moments,
-                  SplineScratch* scratch);
+                  const Vec3& tangent_first, const Vec3& tangent_last, Pace* pace,
+                  Span<Vec3> moments, SplineScratch* scratch);
 
 // The derivative at the first knot of the parabola through the first three values; of the straight
 // line where there are two. With `last`, the same at the other end.

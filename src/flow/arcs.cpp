@@ -1,6 +1,7 @@
 #include "flow/arcs.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 #include "flow/point_grid.h"
 #include "num/minmax.h"
 
@@ -59,14 +60,18 @@ static Status join_numbers(Context& context, const Polylines& curves, double tol
   };
   Array<Numbered> order(context);
   TRY(order.reserve(curves.number.size()));
-  for (uint32_t s = 0; s < curves.number.size(); ++s) {
-    if (curves.number[s] != k_none) order.push_reserved({curves.number[s], s});
-  }
-  sort(order.span(), [](const Numbered& a, const Numbered& b) {
+  TRY(in_parts(context, curves.number.size(), [&](size_t s) {
+    if (curves.number[s] != k_none) {
+      order.push_reserved({curves.number[s], static_cast<uint32_t>(s)});
+    }
+  }));
+  TRY(sort_in_parts(context, order.span(), [](const Numbered& a, const Numbered& b) {
     return a.number != b.number ? a.number < b.number : a.sample < b.sample;
-  });
+  }));
   uint32_t first = 0;
+  Pace pace(context);
   for (uint32_t i = 1; i < order.size(); ++i) {
+    TRY(pace.after());
     if (order[i].number != order[first].number) {
       first = i;
       continue;
@@ -106,59 +111,64 @@ static Status find_vertices(Context& context, const Polylines& curves, Arcs* arc
   TRY(parent.resize(n));
   TRY(arcs->sample_vertex.resize(n));
   TRY(arcs->vertex.reserve(n));
-  for (uint32_t s = 0; s < n; ++s) parent[s] = s;
+  TRY(in_parts(context, n, [&](size_t s) { parent[s] = static_cast<uint32_t>(s); }));
   TRY(join_numbers(context, curves, tolerance, parent.span()));
   TRY(join_coinciding(context, curves.position, tolerance, parent.span()));
-  for (uint32_t s = 0; s < n; ++s) {
-    const uint32_t root = root_of(parent.span(), s);
+  return in_parts(context, n, [&](size_t i) {
+    const uint32_t s = static_cast<uint32_t>(i), root = root_of(parent.span(), s);
     if (root == s) {
       arcs->sample_vertex[s] = static_cast<uint32_t>(arcs->vertex.size());
       arcs->vertex.push_reserved(curves.position[s]);
     } else {
       arcs->sample_vertex[s] = arcs->sample_vertex[root];
     }
-  }
-  return {};
+  });
 }
 
 // The segments, each once.
 static Status gather_edges(const Polylines& curves, const Arcs& arcs, Array<ArcEdge>* edges) {
+  Context& context = edges->context();
+  Pace pace(context);
   TRY(edges->reserve(curves.position.size()));
   for (uint32_t c = 0; c + 1 < curves.start.size(); ++c) {
     const uint32_t first = curves.start[c], last = curves.start[c + 1];
     for (uint32_t s = first; s < last; ++s) {
+      TRY(pace.after());
       if (s + 1 == last && curves.closed[c] == 0) break;
       const uint32_t a = arcs.sample_vertex[s];
       const uint32_t b = arcs.sample_vertex[s + 1 == last ? first : s + 1];
       if (a != b) edges->push_reserved({a < b ? a : b, a < b ? b : a, c});
     }
   }
-  sort(edges->span(), [](const ArcEdge& e, const ArcEdge& f) {
+  TRY(sort_in_parts(context, edges->span(), [](const ArcEdge& e, const ArcEdge& f) {
     if (e.a != f.a) return e.a < f.a;
     return e.b != f.b ? e.b < f.b : e.curve < f.curve;
-  });
+  }));
   size_t kept = 0;
-  for (const ArcEdge& e : *edges) {
-    if (kept > 0 && (*edges)[kept - 1].a == e.a && (*edges)[kept - 1].b == e.b) continue;
+  TRY(in_parts(context, edges->size(), [&](size_t i) {
+    const ArcEdge e = (*edges)[i];
+    if (kept > 0 && (*edges)[kept - 1].a == e.a && (*edges)[kept - 1].b == e.b) return;
     (*edges)[kept++] = e;
-  }
+  }));
   edges->shrink(kept);
   return {};
 }
 
 static Status link_edges(uint32_t vertices, ArcGraph* graph) {
-  TRY(graph->start.assign(size_t{vertices} + 1, 0));
+  Context& context = graph->edge.context();
+  TRY(assign_in_parts(size_t{vertices} + 1, 0, &graph->start));
   TRY(graph->edge_at.resize(2 * graph->edge.size()));
-  TRY(graph->used.assign(graph->edge.size(), 0));
-  for (const ArcEdge& e : graph->edge) {
-    ++graph->start[e.a];
-    ++graph->start[e.b];
-  }
+  TRY(assign_in_parts(graph->edge.size(), 0, &graph->used));
+  TRY(in_parts(context, graph->edge.size(), [&](size_t e) {
+    ++graph->start[graph->edge[e].a];
+    ++graph->start[graph->edge[e].b];
+  }));
   starts_from_counts(graph->start.span());
-  for (uint32_t e = 0; e < graph->edge.size(); ++e) {
+  TRY(in_parts(context, graph->edge.size(), [&](size_t i) {
+    const uint32_t e = static_cast<uint32_t>(i);
     graph->edge_at[graph->start[graph->edge[e].a]++] = e;
     graph->edge_at[graph->start[graph->edge[e].b]++] = e;
-  }
+  }));
   shift_starts_back(graph->start.span());
   return {};
 }
@@ -171,10 +181,11 @@ static bool turns_sharply(const ArcGraph& graph, Span<const Vec3> vertex, uint32
 }
 
 // Follows the polyline from v along edge e to the next node, or round to v itself.
-static void trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Arcs* arcs) {
+static Status trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Pace* pace, Arcs* arcs) {
   const uint32_t first = v;
   double along = 0.0;
   do {
+    TRY(pace->after());
     arcs->path.push_reserved(v);
     arcs->along.push_reserved(along);
     arcs->curve.push_reserved(graph->edge[e].curve);
@@ -191,6 +202,7 @@ static void trace_arc(ArcGraph* graph, uint32_t v, uint32_t e, Arcs* arcs) {
   arcs->curve.push_reserved(arcs->curve.back());
   arcs->closed.push_reserved(arcs->is_node[first] == 0);
   arcs->start.push_reserved(static_cast<uint32_t>(arcs->path.size()));
+  return {};
 }
 
 static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
@@ -202,12 +214,15 @@ static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
   TRY(arcs->closed.reserve(edges));
   TRY(arcs->start.reserve(edges + 1));
   arcs->start.push_reserved(0);
+  Pace pace(graph->edge.context());
   // Arcs between nodes first; what is left after that are circles without one.
   for (int pass = 0; pass < 2; ++pass) {
     for (uint32_t v = 0; v < vertices; ++v) {
+      TRY(pace.after());
       if ((pass == 0) != (arcs->is_node[v] != 0)) continue;
       for (uint32_t i = graph->start[v]; i < graph->start[v + 1]; ++i) {
-        if (graph->used[graph->edge_at[i]] == 0) trace_arc(graph, v, graph->edge_at[i], arcs);
+        const uint32_t e = graph->edge_at[i];
+        if (graph->used[e] == 0) TRY(trace_arc(graph, v, e, &pace, arcs));
       }
     }
   }
@@ -216,9 +231,11 @@ static Status trace_arcs(ArcGraph* graph, Arcs* arcs) {
 
 static Status gather_points(const Polylines& curves, const ArcGraph& graph, Arcs* arcs) {
   Array<uint8_t> seen(graph.used.context());
-  TRY(seen.assign(arcs->vertex.size(), 0));
+  Pace pace(seen.context());
+  TRY(assign_in_parts(arcs->vertex.size(), 0, &seen));
   for (uint32_t c = 0; c + 1 < curves.start.size(); ++c) {
     for (uint32_t s = curves.start[c]; s < curves.start[c + 1]; ++s) {
+      TRY(pace.after());
       const uint32_t v = arcs->sample_vertex[s];
       if (graph.degree(v) != 0 || seen[v] != 0) continue;
       seen[v] = 1;
@@ -239,10 +256,10 @@ Status find_arcs(Context& context, const Polylines& curves, Arcs* arcs) {
   TRY(gather_edges(curves, *arcs, &graph.edge));
   TRY(link_edges(vertices, &graph));
   TRY(arcs->is_node.resize(vertices));
-  for (uint32_t v = 0; v < vertices; ++v) {
-    const uint32_t degree = graph.degree(v);
+  TRY(in_parts(context, vertices, [&](size_t i) {
+    const uint32_t v = static_cast<uint32_t>(i), degree = graph.degree(v);
     arcs->is_node[v] = degree != 0 && (degree != 2 || turns_sharply(graph, arcs->vertex.span(), v));
-  }
+  }));
   TRY(gather_points(curves, graph, arcs));
   return trace_arcs(&graph, arcs);
 }

@@ -1,6 +1,7 @@
 #include "flow/chains.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 
 namespace wireskin::flow {
 
@@ -155,6 +156,7 @@ struct Turn {
 
 static constexpr double k_sharp = 0.60141159900854613;  // between unit directions 35 degrees apart
 static constexpr uint32_t k_wide = 3;
+static constexpr size_t k_steps_of_bend = 8;  // what looking at a place takes
 
 // Nothing where the chain ends before that.
 static Bend bend_at(const Arcs& arcs, const Chains& chains, uint32_t chain, uint32_t place,
@@ -191,9 +193,10 @@ static bool is_flat(const Arcs& arcs, const Chains& chains, uint32_t chain, uint
 // transverse axes have the lower quartile .76 sigma.
 static Status noise_of(Span<const Turn> turns, Array<double>* moves, double* sigma) {
   constexpr double k_quartile_of_rayleigh = 0.76;
+  Context& context = moves->context();
   TRY(moves->resize(turns.size()));
-  for (size_t i = 0; i < turns.size(); ++i) (*moves)[i] = turns[i].narrow.move;
-  sort(moves->span(), [](double a, double b) { return a < b; });
+  TRY(in_parts(context, turns.size(), [&](size_t i) { (*moves)[i] = turns[i].narrow.move; }));
+  TRY(sort_in_parts(context, moves->span(), [](double a, double b) { return a < b; }));
   *sigma = (*moves)[turns.size() / 4] / k_quartile_of_rayleigh;
   return {};
 }
@@ -217,39 +220,40 @@ static Status mark_corners_of(double noise, bool closed, Span<const Turn> turns,
   if (turns.empty()) return {};
   size_t sharp = 0, flat = 0;
   double sigma = noise;
-  for (const Turn& turn : turns) {
-    sharp += turn.narrow.turn > k_sharp;
-    flat += turn.flat;
-  }
+  TRY(in_parts(moves->context(), turns.size(), [&](size_t i) {
+    sharp += turns[i].narrow.turn > k_sharp;
+    flat += turns[i].flat;
+  }));
   const bool in_space = turns.size() >= k_statistics && 5 * flat < turns.size();
   const bool polygon = !(noise > 0.0) && !in_space && 4 * sharp > 3 * turns.size();
   if (!(noise > 0.0)) TRY(noise_of(turns, moves, &sigma));
-  for (size_t i = 0; i < turns.size(); ++i) {
+  return in_parts(moves->context(), turns.size(), [&](size_t i) {
     const Bend &narrow = turns[i].narrow, &wide = turns[i].wide;
-    if (!(narrow.turn > k_sharp)) continue;
+    if (!(narrow.turn > k_sharp)) return;
     const bool alone =
         wide.turn > k_sharp && wide.move > k_contrast * sigma && turns_most(turns, i, closed);
     corner[turns[i].place] = polygon || alone || narrow.move > k_contrast * sigma;
-  }
-  return {};
+  });
 }
 
 static Status mark_corners(Context& context, const Arcs& arcs, double noise, Chains* chains) {
   Array<Turn> turns(context);
   Array<double> moves(context);
+  Pace pace(context);
   TRY(turns.reserve(chains->vertex.size()));
-  TRY(chains->corner.assign(chains->vertex.size(), 0));
+  TRY(assign_in_parts(chains->vertex.size(), 0, &chains->corner));
   for (uint32_t c = 0; c < chains->size(); ++c) {
     const bool closed = chains->closed[c] != 0;
     turns.clear();
     for (uint32_t i = chains->start[c]; i < chains->start[c + 1]; ++i) {
+      TRY(pace.after(k_steps_of_bend));
       const bool end = i == chains->start[c] || i + 1 == chains->start[c + 1];
       if (!closed && end) continue;
       turns.push_reserved({i, bend_at(arcs, *chains, c, i, 1), bend_at(arcs, *chains, c, i, k_wide),
                            is_flat(arcs, *chains, c, i)});
     }
     TRY(mark_corners_of(noise, closed, turns.span(), &moves, chains->corner.span()));
-    if (c % 1024 == 0) TRY(context.checkpoint());
+    TRY(pace.after());
   }
   return {};
 }

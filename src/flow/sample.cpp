@@ -90,6 +90,7 @@ static double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 }
 
 static Status coarsen_arcs(Context& context, const Arcs& arcs, double step, CoarseArcs* coarse) {
+  Pace pace(context);
   TRY(coarse->start.push(0));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const double whole = arcs.length_of(a);
@@ -99,17 +100,18 @@ static Status coarsen_arcs(Context& context, const Arcs& arcs, double step, Coar
     }
     ArcWalk walk(arcs, a);
     for (uint32_t i = 0; i <= pieces; ++i) {
+      const uint32_t from = walk.step;
       TRY(coarse->point.push(walk.at(whole * i / pieces, arcs.start[a + 1] - 2)));
       TRY(coarse->arc.push(a));
+      TRY(pace.after(1 + walk.step - from));
     }
     TRY(coarse->start.push(static_cast<uint32_t>(coarse->point.size())));
-    if (a % 1024 == 0) TRY(context.checkpoint());
   }
   return {};
 }
 
 // How far arc a strays from arc b, as soon as that is known to reach `enough`.
-static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double enough) {
+static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double enough, Pace* pace) {
   double greatest = 0.0;
   const uint32_t first = coarse.start[a], count = coarse.start[a + 1] - first;
   for (uint32_t i = 0; i < count && greatest < enough; ++i) {
@@ -119,6 +121,7 @@ static double stray(const CoarseArcs& coarse, uint32_t a, uint32_t b, double eno
     double least = DBL_MAX;
     for (uint32_t j = coarse.start[b]; j + 1 < coarse.start[b + 1] && least > greatest; ++j) {
       least = smaller(least, distance_to_segment(p, coarse.point[j], coarse.point[j + 1]));
+      pace->add(1);
     }
     greatest = larger(greatest, least);
   }
@@ -131,13 +134,14 @@ static Status choose_steps(Context& context, const Arcs& arcs, double greatest_s
   CoarseArcs coarse(context);
   PointGrid grid(context);
   Array<uint32_t> seen(context);
+  Pace pace(context);
   const double spacing = 0.5 * greatest_step;
   TRY(steps->assign(arcs.size(), greatest_step));
   TRY(coarsen_arcs(context, arcs, spacing, &coarse));
   TRY(grid.build(coarse.point.span()));
   TRY(seen.assign(arcs.size(), k_none));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
-    if (a % 64 == 0) TRY(context.checkpoint());
+    TRY(pace.after());
     double nearest = 2.0 * greatest_step;
     const uint32_t middle = coarse.start[a] + (coarse.start[a + 1] - coarse.start[a]) / 2;
     seen[a] = a;
@@ -145,7 +149,7 @@ static Status choose_steps(Context& context, const Arcs& arcs, double greatest_s
       const uint32_t b = coarse.arc[near];
       if (seen[b] == a) return false;
       seen[b] = a;
-      const double distance = stray(coarse, a, b, nearest);
+      const double distance = stray(coarse, a, b, nearest, &pace);
       if (distance > k_same_curve * arcs.diagonal) nearest = smaller(nearest, distance);
       return false;
     });
@@ -202,7 +206,7 @@ static Status divide_stretch(double from, double to, double step, StationLine* l
 // Given points that lie too far from the segments become stations, the worst of each first: a
 // station nearby moves there, or else one is added. At last all points of a segment are added, so
 // that the cost stays near-linear whatever the curve.
-static Status take_strays(const Arcs& arcs, uint32_t a, double step, StationLine* line,
+static Status take_strays(const Arcs& arcs, uint32_t a, double step, Pace* pace, StationLine* line,
                           StationLine* work) {
   constexpr int k_most_passes = 16;
   constexpr double k_near = 0.4;  // of the step
@@ -215,6 +219,7 @@ static Status take_strays(const Arcs& arcs, uint32_t a, double step, StationLine
       const double from = line->along[i], to = line->along[i + 1];
       const uint32_t first = walk.step + 1;
       const uint32_t worst = worst_between(arcs, a, from, to, k_given_distance * step, &walk);
+      TRY(pace->after(2 + walk.step - first));
       TRY(work->push(from, line->fixed[i]));
       if (worst == k_none) continue;
       any = true;
@@ -245,12 +250,14 @@ static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double>
                           Stations* stations) {
   Array<double> first_step(context);
   StationLine own(context), work(context);
-  TRY(first_step.assign(arcs.vertex.size(), DBL_MAX));
+  Pace pace(context);
+  TRY(assign_in_parts(arcs.vertex.size(), DBL_MAX, &first_step));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const uint32_t ends[2] = {arcs.path[arcs.start[a]], arcs.path[arcs.start[a + 1] - 1]};
     const uint32_t wished = pieces_for(arcs.length_of(a), greatest[a]);
     const uint32_t least = is_loop(arcs, a) ? k_least_pieces_of_loop : k_least_pieces;
     const double step = arcs.length_of(a) / (wished < least ? least : wished);
+    TRY(pace.after(arcs.start[a + 1] - arcs.start[a]));
     for (uint32_t k = 0; k < 2; ++k) {
       const double straight = arcs.closed[a] != 0 ? step : straight_step(arcs, a, k == 1, step);
       first_step[ends[k]] = smaller(first_step[ends[k]], straight);
@@ -268,13 +275,13 @@ static Status divide_arcs(Context& context, const Arcs& arcs, Span<const double>
     TRY(divide_stretch(begin, whole - end, step, &own));
     TRY(own.push(whole, 1));
     if (arcs.closed[a] != 0) own.fixed[own.fixed.size() - 2] = 0;
-    TRY(take_strays(arcs, a, step, &own, &work));
+    TRY(take_strays(arcs, a, step, &pace, &own, &work));
     if (stations->along.size() + own.along.size() > k_most_samples) {
       return fail(Code::too_large, "curves so near to each other need too many samples");
     }
     for (const double at : own.along) TRY(stations->along.push(at));
     TRY(stations->start.push(static_cast<uint32_t>(stations->along.size())));
-    if (a % 1024 == 0) TRY(context.checkpoint());
+    TRY(pace.after(own.along.size()));
   }
   return {};
 }
@@ -284,7 +291,7 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
                             Samples* samples) {
   const size_t room = stations.along.size();
   Array<uint32_t> sample_of(context);
-  TRY(sample_of.assign(arcs.vertex.size(), k_none));
+  TRY(assign_in_parts(arcs.vertex.size(), k_none, &sample_of));
   TRY(samples->start.copy(stations.start.span()));
   TRY(samples->along.copy(stations.along.span()));
   TRY(samples->at.resize(room));
@@ -298,7 +305,9 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
     samples->position.push_reserved(p);
     samples->vertex.push_reserved(vertex);
   };
+  Pace pace(context);
   for (uint32_t v = 0; v < arcs.vertex.size(); ++v) {
+    TRY(pace.after());
     if (arcs.is_node[v] != 0) add(arcs.vertex[v], v);
   }
   for (const uint32_t v : arcs.point) add(arcs.vertex[v], v);
@@ -309,7 +318,9 @@ static Status place_samples(Context& context, const Arcs& arcs, const Stations& 
     if (sample_of[begin] == k_none) add(arcs.vertex[begin], begin);
     ArcWalk walk(arcs, a);
     for (uint32_t i = first; i <= last; ++i) {
+      const uint32_t from = walk.step;
       const Vec3 p = walk.at(stations.along[i], last_step);
+      TRY(pace.after(1 + walk.step - from));
       samples->step[i] = walk.step;
       samples->at[i] = i == first  ? sample_of[begin]
                        : i == last ? sample_of[end]

@@ -1,6 +1,7 @@
 #include "network/integrate.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 #include "num/trig.h"
 #include "sparse/cholesky.h"
 #include "sparse/ordering.h"
@@ -22,6 +23,8 @@ static Vec3 measured_step(const SensorSamples& samples, size_t c, uint32_t i) {
   return samples.to_next[c] ? arc * from : chord_of_arc(from, to, arc);
 }
 
+static constexpr size_t k_steps_of_arc = 4;  // a step to measure takes as long as so many others
+
 // One step between two different points, k_none in place of a fixed one.
 struct Step {
   uint32_t low, high;
@@ -32,37 +35,42 @@ struct Step {
 static Status number_unknowns(Context& context, const SensorSamples& samples,
                               Array<uint32_t>* unknown, uint32_t* count) {
   DisjointSets sets(context);
+  Pace pace(context);
   TRY(sets.reset(samples.points));
   TRY(unknown->resize(samples.points));
   for (size_t c = 0; c + 1 < samples.start.size(); ++c) {
     for (uint32_t i = samples.start[c] + 1; i < samples.start[c + 1]; ++i) {
       sets.unite(samples.point[i - 1], samples.point[i]);
+      TRY(pace.after());
     }
   }
   *count = 0;
-  for (uint32_t p = 0; p < samples.points; ++p) {
+  return in_parts(context, samples.points, [&](size_t i) {
+    const uint32_t p = static_cast<uint32_t>(i);
     (*unknown)[p] = sets.find(p) == p ? k_none : (*count)++;
-  }
-  return {};
+  });
 }
 
 // The lower triangle of the weighted Laplacian; steps between the same two points add up.
-static Status assemble_laplacian(uint32_t n, Span<Step> steps, Span<const double> diagonal,
-                                 sparse::Csc* matrix) {
-  sort(steps, [](const Step& p, const Step& q) {
+static Status assemble_laplacian(Context& context, uint32_t n, Span<Step> steps,
+                                 Span<const double> diagonal, sparse::Csc* matrix) {
+  TRY(sort_in_parts(context, steps, [](const Step& p, const Step& q) {
     if (p.low != q.low) return p.low < q.low;
     return p.high != q.high ? p.high < q.high : p.weight < q.weight;
-  });
+  }));
   matrix->rows = matrix->cols = n;
   TRY(matrix->start.resize(n + size_t{1}));
   TRY(matrix->row.reserve(n + steps.size()));
   TRY(matrix->value.reserve(n + steps.size()));
   size_t k = 0;
+  Pace pace(context);
   for (uint32_t j = 0; j < n; ++j) {
+    TRY(pace.after());
     matrix->start[j] = static_cast<uint32_t>(matrix->row.size());
     matrix->row.push_reserved(j);
     matrix->value.push_reserved(diagonal[j]);
     for (; k < steps.size() && steps[k].low == j; ++k) {
+      TRY(pace.after());
       if (matrix->row.back() == steps[k].high) {
         matrix->value.back() -= steps[k].weight;
         continue;
@@ -82,7 +90,7 @@ static Status solve_laplacian(Context& context, Span<Step> steps, Span<const dou
   sparse::Csc matrix(context);
   sparse::Cholesky factor(context);
   Array<uint32_t> order(context);
-  TRY(assemble_laplacian(n, steps, diagonal, &matrix));
+  TRY(assemble_laplacian(context, n, steps, diagonal, &matrix));
   TRY(sparse::minimum_degree(matrix, &order));
   TRY(factor.analyse(matrix, order.span()));
   TRY(context.enter(Stage::factor));
@@ -98,15 +106,17 @@ Status integrate_tangents(Context& context, const SensorSamples& samples, Span<V
   Array<double> diagonal(context), x(context);
   uint32_t n = 0;
   TRY(number_unknowns(context, samples, &unknown, &n));
+  Pace pace(context);
   TRY(steps.reserve(samples.arc.size()));
-  TRY(diagonal.assign(n, 0.0));
-  TRY(x.assign(size_t{3} * n, 0.0));
+  TRY(assign_in_parts(n, 0.0, &diagonal));
+  TRY(assign_in_parts(size_t{3} * n, 0.0, &x));
   const auto add = [&](uint32_t u, const Vec3& v) {
     if (u == k_none) return;
     x[3 * u] += v.x, x[3 * u + 1] += v.y, x[3 * u + 2] += v.z;
   };
   for (size_t c = 0; c + 1 < samples.start.size(); ++c) {
     for (uint32_t i = samples.start[c] + 1; i < samples.start[c + 1]; ++i) {
+      TRY(pace.after(k_steps_of_arc));
       const uint32_t a = unknown[samples.point[i - 1]], b = unknown[samples.point[i]];
       if (samples.point[i - 1] == samples.point[i]) continue;
       const double weight = 1.0 / (samples.arc[i] - samples.arc[i - 1]);
@@ -120,13 +130,14 @@ Status integrate_tangents(Context& context, const SensorSamples& samples, Span<V
     }
   }
   TRY(solve_laplacian(context, steps.span(), diagonal.span(), x.span()));
-  for (size_t i = 0; i < position.size(); ++i) {
+  TRY(in_parts(context, position.size(), [&](size_t i) {
     const uint32_t u = unknown[samples.point[i]];
     position[i] = u == k_none ? Vec3{} : Vec3{x[3 * u], x[3 * u + 1], x[3 * u + 2]};
-  }
+  }));
   double sum = 0.0, count = 0.0;
   for (size_t c = 0; c + 1 < samples.start.size(); ++c) {
     for (uint32_t i = samples.start[c] + 1; i < samples.start[c + 1]; ++i) {
+      TRY(pace.after(k_steps_of_arc));
       const Vec3 misfit = position[i] - position[i - 1] - measured_step(samples, c, i);
       sum += dot(misfit, misfit);
       count += 1.0;

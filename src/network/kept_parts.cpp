@@ -1,5 +1,6 @@
 #include "network/kept_parts.h"
 
+#include "base/in_parts.h"
 #include "network/wires.h"
 
 namespace wireskin::network {
@@ -9,12 +10,12 @@ static Span<const uint32_t> kept_of_curve(const KeptSamples& samples, size_t cur
   return samples.kept.part(first, samples.kept_start[curve + 1] - first);
 }
 
-static uint32_t count_nodes(const KeptSamples& samples) {
-  uint32_t nodes = 0;
-  for (const uint32_t node : samples.node) {
-    if (node != k_none && node >= nodes) nodes = node + 1;
-  }
-  return nodes;
+static Status count_nodes(Context& context, const KeptSamples& samples, uint32_t* nodes) {
+  *nodes = 0;
+  return in_parts(context, samples.node.size(), [&](size_t i) {
+    const uint32_t node = samples.node[i];
+    if (node != k_none && node >= *nodes) *nodes = node + 1;
+  });
 }
 
 // Which part each curve is of, parts being numbered in the order of their first curves.
@@ -22,11 +23,15 @@ static Status number_parts(const KeptSamples& samples, Array<uint32_t>* part, ui
   const uint32_t curves = static_cast<uint32_t>(samples.closed.size());
   DisjointSets sets(part->context());
   Array<uint32_t> curve_of_node(part->context());
+  Pace pace(part->context());
+  uint32_t nodes = 0;
   TRY(sets.reset(curves));
-  TRY(curve_of_node.assign(count_nodes(samples), k_none));
+  TRY(count_nodes(part->context(), samples, &nodes));
+  TRY(assign_in_parts(nodes, k_none, &curve_of_node));
   TRY(part->resize(curves));
   for (uint32_t c = 0; c < curves; ++c) {
     for (const uint32_t k : kept_of_curve(samples, c)) {
+      TRY(pace.after());
       const uint32_t node = samples.node[samples.start[c] + k];
       if (node == k_none) continue;
       if (curve_of_node[node] == k_none) curve_of_node[node] = c;
@@ -64,6 +69,7 @@ Status KeptParts::copy_curves(Span<const uint32_t> order) {
   TRY(first_kept_.resize(first_curve_.size()));
   TRY(kept_start_.reserve(order.size() + count()));
   TRY(kept_.reserve(samples_.kept.size()));
+  Pace pace(kept_.context());
   kept_start_.clear();
   kept_.clear();
   first_kept_[0] = 0;
@@ -72,7 +78,10 @@ Status KeptParts::copy_curves(Span<const uint32_t> order) {
     for (uint32_t i = first_curve_[p]; i < first_curve_[p + 1]; ++i) {
       start_[i] = samples_.start[order[i]];
       closed_[i] = samples_.closed[order[i]];
-      for (const uint32_t k : kept_of_curve(samples_, order[i])) kept_.push_reserved(k);
+      for (const uint32_t k : kept_of_curve(samples_, order[i])) {
+        TRY(pace.after());
+        kept_.push_reserved(k);
+      }
       kept_start_.push_reserved(static_cast<uint32_t>(kept_.size()) - first_kept_[p]);
     }
     first_kept_[p + 1] = static_cast<uint32_t>(kept_.size());
@@ -95,13 +104,17 @@ KeptSamples KeptParts::part(uint32_t p) const {
 // Every node is of one part only, so one array of numbers serves all of them.
 Status KeptParts::number_nodes() {
   Array<uint32_t> number(node_.context());
-  TRY(number.assign(count_nodes(samples_), k_none));
-  TRY(node_.assign(samples_.node.size(), k_none));
+  Pace pace(node_.context());
+  uint32_t all = 0;
+  TRY(count_nodes(node_.context(), samples_, &all));
+  TRY(assign_in_parts(all, k_none, &number));
+  TRY(assign_in_parts(samples_.node.size(), k_none, &node_));
   for (uint32_t p = 0; p < count(); ++p) {
     const KeptSamples own = part(p);
     uint32_t nodes = 0;
     for (uint32_t c = 0; c < own.closed.size(); ++c) {
       for (const uint32_t k : kept_of_curve(own, c)) {
+        TRY(pace.after());
         const uint32_t sample = own.start[c] + k, node = samples_.node[sample];
         if (node == k_none) continue;
         if (number[node] == k_none) number[node] = nodes++;

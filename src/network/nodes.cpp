@@ -1,7 +1,7 @@
 #include "network/nodes.h"
 
 #include "base/search.h"
-#include "base/sort.h"
+#include "base/sort_in_parts.h"
 #include "curves/opposed.h"
 
 namespace wireskin::network {
@@ -138,19 +138,22 @@ static Status merge(const SampleNumbers& samples, Span<const uint32_t> members, 
 
 Status find_nodes(const SampleNumbers& samples, double tolerance, Array<Node>* nodes,
                   Array<uint32_t>* node_of_sample) {
-  Array<uint32_t> order(nodes->context());
+  Context& context = nodes->context();
+  Array<uint32_t> order(context);
+  Pace pace(context);
   TRY(order.reserve(samples.number.size()));
-  TRY(node_of_sample->assign(samples.number.size(), k_none));
-  for (uint32_t i = 0; i < samples.number.size(); ++i) {
-    if (samples.number[i] != k_none) order.push_reserved(i);
-  }
+  TRY(assign_in_parts(samples.number.size(), k_none, node_of_sample));
+  TRY(in_parts(context, samples.number.size(), [&](size_t i) {
+    if (samples.number[i] != k_none) order.push_reserved(static_cast<uint32_t>(i));
+  }));
   const Span<const uint32_t> number = samples.number;
-  sort(order.span(), [number](uint32_t a, uint32_t b) {
+  TRY(sort_in_parts(context, order.span(), [number](uint32_t a, uint32_t b) {
     return number[a] != number[b] ? number[a] < number[b] : a < b;
-  });
+  }));
   nodes->clear();
   for (size_t first = 0, end = 0; first < order.size(); first = end) {
     while (end < order.size() && number[order[end]] == number[order[first]]) ++end;
+    TRY(pace.after(end - first));
     if (end - first < 2) continue;
     Node node;
     TRY(merge(samples, order.span().part(first, end - first), tolerance, &node));

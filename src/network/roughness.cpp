@@ -1,10 +1,13 @@
 #include "network/roughness.h"
 
-#include "base/sort.h"
+#include "base/in_parts.h"
+#include "base/sort_in_parts.h"
 #include "sparse/ordering.h"
 #include "sparse/product.h"
 
 namespace wireskin::network {
+
+static constexpr size_t k_steps_of_row = 4;  // of some fourteen columns
 
 // One curve's part of the kept samples.
 struct KeptCurve {
@@ -29,16 +32,19 @@ static uint32_t sample_of(const KeptSamples& samples, const KeptCurve& curve, ui
 }
 
 // One pass of the mask 1/4, 1/2, 1/4 over the points of a curve; ends stay.
-static void filter_points(const KeptCurve& curve, Span<const Vec3> from, Span<Vec3> to) {
+static Status filter_points(const KeptCurve& curve, Span<const Vec3> from, Pace* pace,
+                            Span<Vec3> to) {
   for (uint32_t k = 0; k < curve.count; ++k) {
+    TRY(pace->after());
     to[k] = from[k];
     if (curve.is_end(k)) continue;
     to[k] = 0.25 * (from[curve.before(k)] + from[curve.after(k)]) + 0.5 * from[k];
   }
+  return {};
 }
 
 // The distance of each kept sample to the next one of its curve; zero after the end of an open one.
-static Status measure_gaps(const KeptSamples& samples, bool filtered, Array<double>* gaps) {
+Status Roughness::measure_gaps(const KeptSamples& samples, bool filtered, Array<double>* gaps) {
   constexpr int k_filter_passes = 4;
   Array<Vec3> points(gaps->context()), work(gaps->context());
   TRY(points.resize(samples.kept.size()));
@@ -48,13 +54,16 @@ static Status measure_gaps(const KeptSamples& samples, bool filtered, Array<doub
     const KeptCurve curve = kept_curve(samples, c);
     const Span<Vec3> p = points.span().part(curve.first_kept, curve.count);
     const Span<Vec3> q = work.span().part(curve.first_kept, curve.count);
-    for (uint32_t k = 0; k < curve.count; ++k)
+    for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       p[k] = samples.position[sample_of(samples, curve, k)];
+    }
     for (int pass = 0; filtered && pass < k_filter_passes; pass += 2) {
-      filter_points(curve, p, q);
-      filter_points(curve, q, p);
+      TRY(filter_points(curve, p, &pace_, q));
+      TRY(filter_points(curve, q, &pace_, p));
     }
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const bool last = !curve.closed && k + 1 == curve.count;
       (*gaps)[curve.first_kept + k] = last ? 0.0 : length(p[curve.after(k)] - p[k]);
     }
@@ -67,12 +76,13 @@ Status Roughness::number_unknowns(const KeptSamples& samples) {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const uint32_t node = samples.node[sample_of(samples, curve, k)];
       if (node != k_none && node >= nodes) nodes = node + 1;
     }
   }
   Array<uint32_t> unknown_of_node(*context_);
-  TRY(unknown_of_node.assign(nodes, k_none));
+  TRY(assign_in_parts(nodes, k_none, &unknown_of_node));
   TRY(unknown_.resize(samples.kept.size()));
   TRY(value_.reserve(samples.kept.size() * k_columns));
   value_.clear();
@@ -80,6 +90,7 @@ Status Roughness::number_unknowns(const KeptSamples& samples) {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const uint32_t sample = sample_of(samples, curve, k);
       const uint32_t node = samples.node[sample];
       const bool known = node != k_none && unknown_of_node[node] != k_none;
@@ -132,6 +143,7 @@ Status Roughness::list_rows(const KeptSamples& samples, Span<const double> gaps)
   for (size_t c = 0; c < samples.closed.size() && spacing_ > 0.0; ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       if (curve.is_end(k)) continue;
       if (!samples.corner.empty() && samples.corner[sample_of(samples, curve, k)]) continue;
       const uint32_t before = curve.before(k), after = curve.after(k);
@@ -153,10 +165,11 @@ Status Roughness::list_rows(const KeptSamples& samples, Span<const double> gaps)
 }
 
 // E p in the first columns, probes in the others: signs from a linear congruential generator.
-void Roughness::fill_right_side() {
+Status Roughness::fill_right_side() {
   const uint32_t columns = k_columns + probes_;
   uint32_t random = 1;
   for (uint32_t j = 0; j < rows(); ++j) {
+    TRY(pace_.after(k_steps_of_row));
     double* to = right_side_.data() + size_t{j} * columns;
     for (uint32_t i = 0; i < k_columns; ++i) to[i] = 0.0;
     for (uint32_t e = transposed_.start[j]; e < transposed_.start[j + 1]; ++e) {
@@ -168,6 +181,7 @@ void Roughness::fill_right_side() {
       to[i] = random >> 31 != 0 ? 1.0 : -1.0;
     }
   }
+  return {};
 }
 
 // E E^T, its factor's structure, and E p.
@@ -178,24 +192,23 @@ Status Roughness::prepare_system() {
   Array<double> ones(*context_);
   Array<uint32_t> same(*context_), order(*context_);
   TRY(sparse::transpose(transposed_, &roughness));
-  TRY(ones.assign(unknowns_, 1.0));
+  TRY(assign_in_parts(unknowns_, 1.0, &ones));
   TRY(same.resize(m));
-  for (uint32_t j = 0; j < m; ++j) same[j] = j;
+  TRY(in_parts(*context_, m, [&](size_t j) { same[j] = static_cast<uint32_t>(j); }));
   TRY(sparse::weighted_product(roughness, ones.span(), transposed_, same.span(), m,
                                sparse::Part::lower, &product_));
   TRY(sparse::minimum_degree(product_, &order));
   TRY(factor_.analyse(product_, order.span()));
   system_.rows = system_.cols = m;
-  TRY(system_.start.copy(product_.start.span()));
-  TRY(system_.row.copy(product_.row.span()));
+  TRY(copy_in_parts(product_.start, &system_.start));
+  TRY(copy_in_parts(product_.row, &system_.row));
   TRY(system_.value.resize(product_.value.size()));
   probes_ = m > k_exact_rows ? k_probes : 0;
   TRY(right_side_.resize(size_t{m} * (k_columns + probes_)));
   TRY(solution_.resize(right_side_.size()));
   TRY(inverse_diagonal_.resize(probes_ == 0 ? m : 0));
   TRY(residual_.resize(size_t{unknowns_} * k_columns));
-  fill_right_side();
-  return {};
+  return fill_right_side();
 }
 
 Status Roughness::build(const KeptSamples& samples, bool filtered) {
@@ -206,10 +219,10 @@ Status Roughness::build(const KeptSamples& samples, bool filtered) {
   TRY(number_unknowns(samples));
   TRY(measure_gaps(samples, filtered, &gaps));
   TRY(sorted.reserve(gaps.size()));
-  for (const double gap : gaps) {
-    if (gap > 0.0) sorted.push_reserved(gap);
-  }
-  sort(sorted.span(), [](double a, double b) { return a < b; });
+  TRY(in_parts(*context_, gaps.size(), [&](size_t k) {
+    if (gaps[k] > 0.0) sorted.push_reserved(gaps[k]);
+  }));
+  TRY(sort_in_parts(*context_, sorted.span(), [](double a, double b) { return a < b; }));
   spacing_ = sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
   TRY(list_rows(samples, gaps.span()));
   return rows() > 0 ? prepare_system() : Status{};
@@ -227,6 +240,7 @@ Status Roughness::find_freedom(double* freedom) {
   }
   const uint32_t columns = k_columns + probes_;
   for (uint32_t j = 0; j < rows(); ++j) {
+    TRY(pace_.after());
     const double* z = right_side_.data() + size_t{j} * columns;
     const double* y = solution_.data() + size_t{j} * columns;
     for (uint32_t i = k_columns; i < columns; ++i) sum += z[i] * (z[i] - y[i]);
@@ -235,25 +249,27 @@ Status Roughness::find_freedom(double* freedom) {
   return {};
 }
 
-void Roughness::measure_residuals(Residuals* residuals) const {
+Status Roughness::measure_residuals(Residuals* residuals) const {
   residuals->position = residuals->normal = 0.0;
-  for (uint32_t u = 0; u < unknowns_; ++u) {
-    const double* r = residual_.data() + size_t{u} * k_columns;
+  return in_parts(*context_, unknowns_, [&](size_t u) {
+    const double* r = residual_.data() + u * k_columns;
     residuals->position += r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
     residuals->normal += r[3] * r[3] + r[4] * r[4] + r[5] * r[5];
-  }
+  });
 }
 
 Status Roughness::smooth(double lambda, Residuals* residuals) {
   const uint32_t m = rows(), columns = k_columns + probes_;
   TRY(pace_.after(m));
-  for (size_t e = 0; e < product_.value.size(); ++e) system_.value[e] = lambda * product_.value[e];
-  for (uint32_t j = 0; j < m; ++j) system_.value[system_.start[j]] += 1.0;
-  for (size_t i = 0; i < solution_.size(); ++i) solution_[i] = right_side_[i];
+  TRY(in_parts(*context_, product_.value.size(),
+               [&](size_t e) { system_.value[e] = lambda * product_.value[e]; }));
+  TRY(in_parts(*context_, m, [&](size_t j) { system_.value[system_.start[j]] += 1.0; }));
+  TRY(copy_in_parts(right_side_, &solution_));
   TRY(factor_.factor(system_));
   TRY(factor_.solve(solution_.span(), columns));
-  for (double& r : residual_) r = 0.0;
+  TRY(assign_in_parts(residual_.size(), 0.0, &residual_));
   for (uint32_t j = 0; j < m; ++j) {
+    TRY(pace_.after(k_steps_of_row));
     const double* from = solution_.data() + size_t{j} * columns;
     for (uint32_t e = transposed_.start[j]; e < transposed_.start[j + 1]; ++e) {
       const double weight = lambda * transposed_.value[e];
@@ -262,17 +278,19 @@ Status Roughness::smooth(double lambda, Residuals* residuals) {
     }
   }
   if (residuals == nullptr) return {};
-  measure_residuals(residuals);
+  TRY(measure_residuals(residuals));
   return find_freedom(&residuals->freedom);
 }
 
-bool Roughness::changes_sizes(const KeptSamples& samples, double tolerated) const {
+Status Roughness::compare_sizes(const KeptSamples& samples, double tolerated, bool* change) {
+  *change = false;
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     if (curve.count == 0) continue;
     const size_t first = size_t{unknown_[curve.first_kept]} * k_columns;
     double was = 0.0, is = 0.0;  // greatest distance from the first sample
     for (uint32_t k = 1; k < curve.count; ++k) {
+      TRY(pace_.after());
       const size_t at = size_t{unknown_[curve.first_kept + k]} * k_columns;
       const double* v = value_.data();
       const double* r = residual_.data();
@@ -282,27 +300,30 @@ bool Roughness::changes_sizes(const KeptSamples& samples, double tolerated) cons
       was = old_distance > was ? old_distance : was;
       is = new_distance > is ? new_distance : is;
     }
-    if (!(std::fabs(is - was) <= tolerated * was)) return true;
+    *change = *change || !(std::fabs(is - was) <= tolerated * was);
   }
-  return false;
+  return {};
 }
 
-void Roughness::write_positions(const KeptSamples& samples) const {
+Status Roughness::write_positions(const KeptSamples& samples) {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const size_t at = size_t{unknown_[curve.first_kept + k]} * k_columns;
       const double* v = value_.data() + at;
       const double* r = residual_.data() + at;
       samples.position[sample_of(samples, curve, k)] = {v[0] - r[0], v[1] - r[1], v[2] - r[2]};
     }
   }
+  return {};
 }
 
-void Roughness::write_normals(const KeptSamples& samples) const {
+Status Roughness::write_normals(const KeptSamples& samples) {
   for (size_t c = 0; c < samples.closed.size(); ++c) {
     const KeptCurve curve = kept_curve(samples, c);
     for (uint32_t k = 0; k < curve.count; ++k) {
+      TRY(pace_.after());
       const size_t at = size_t{unknown_[curve.first_kept + k]} * k_columns + 3;
       const double* v = value_.data() + at;
       const double* r = residual_.data() + at;
@@ -314,6 +335,7 @@ void Roughness::write_normals(const KeptSamples& samples) const {
           dot(smoothed, given) > 0.0 ? unit(smoothed) : given;
     }
   }
+  return {};
 }
 
 }  // namespace wireskin::network

@@ -54,10 +54,10 @@ class Roughness {
   // After this the smoothed values are at hand. `residuals` may be null.
   Status smooth(double lambda, Residuals* residuals);
   // Whether they change the extent of any curve by more than the part `tolerated` of it.
-  bool changes_sizes(const KeptSamples& samples, double tolerated) const;
+  Status compare_sizes(const KeptSamples& samples, double tolerated, bool* change);
   // Writes them to all copies of each sample.
-  void write_positions(const KeptSamples& samples) const;
-  void write_normals(const KeptSamples& samples) const;
+  Status write_positions(const KeptSamples& samples);
+  Status write_normals(const KeptSamples& samples);
 
   explicit Roughness(Context& context)
       : context_(&context),
@@ -77,9 +77,10 @@ class Roughness {
   Status number_unknowns(const KeptSamples& samples);
   Status list_rows(const KeptSamples& samples, Span<const double> gaps);
   Status prepare_system();
-  void fill_right_side();
+  Status measure_gaps(const KeptSamples& samples, bool filtered, Array<double>* gaps);
+  Status fill_right_side();
   Status find_freedom(double* freedom);
-  void measure_residuals(Residuals* residuals) const;
+  Status measure_residuals(Residuals* residuals) const;
 
   static constexpr uint32_t k_columns = 6;  // of position and normal
   static constexpr uint32_t k_probes = 8;

@@ -129,16 +129,18 @@ static Status choose_weights(WeightSearch* search, const SmoothingOptions& optio
 static Status apply_weights(WeightSearch* search, const KeptSamples& samples,
                             const SmoothingReport& report, bool* keeps_sizes) {
   constexpr double k_tolerated = 0.2;
+  bool change = false;
   *keeps_sizes = true;
   if (report.lambda_position > 0.0) {
     TRY(search->roughness.smooth(report.lambda_position, nullptr));
-    *keeps_sizes = !search->roughness.changes_sizes(samples, k_tolerated);
-    if (!*keeps_sizes) return {};
-    search->roughness.write_positions(samples);
+    TRY(search->roughness.compare_sizes(samples, k_tolerated, &change));
+    *keeps_sizes = !change;
+    if (change) return {};
+    TRY(search->roughness.write_positions(samples));
   }
   if (report.lambda_normal > 0.0) {
     TRY(search->roughness.smooth(report.lambda_normal, nullptr));
-    search->roughness.write_normals(samples);
+    TRY(search->roughness.write_normals(samples));
   }
   return {};
 }

@@ -117,9 +117,9 @@ size_t Cholesky::factor_bytes() const {
 }
 
 Status Cholesky::allocate_workspace() {
-  TRY(value_.resize(supernodes_.panel[supernodes_.count]));
-  TRY(workspace_.resize(fronts_.workspace));
-  return scratch_.resize(scratch_size());
+  TRY(value_.resize_anew(supernodes_.panel[supernodes_.count]));
+  TRY(workspace_.resize_anew(fronts_.workspace));
+  return scratch_.resize_anew(scratch_size());
 }
 
 Status Cholesky::count_work(uint64_t work) {

@@ -34,6 +34,9 @@ static double without_dust(double entry) {
   return std::fabs(entry) < k_dust ? 0.0 : entry;
 }
 
+// What a column costs beside its entries.
+static constexpr size_t k_work_of_column = 16;
+
 Status Ldl::count_work(size_t work) {
   constexpr size_t k_work_per_checkpoint = size_t{1} << 21;
   work_ += work;
@@ -62,17 +65,17 @@ Status Ldl::analyse(const Csc& lower, Span<const uint32_t> order) {
   WIRESKIN_ASSERT(is_lower_triangle(lower) && order.size() == lower.cols);
   factored_ = false;
   const uint32_t n = lower.cols;
-  TRY(order_.copy(order));
+  TRY(copy_in_parts(order, &order_));
   TRY(path_.resize(n));
   TRY(pattern_.resize(n));
   TRY(filled_.resize(n));
-  TRY(column_.assign(n, 0.0));
-  TRY(sum_.assign(n, 0.0));
+  TRY(assign_in_parts(n, 0.0, &column_));
+  TRY(assign_in_parts(n, 0.0, &sum_));
   TRY(diagonal_.resize(n));
   TRY(inverse_diagonal_.resize(n));
-  TRY(visited_.assign(n, k_none));
-  TRY(start_.assign(size_t{n} + 1, 0));
-  for (uint32_t k = 0; k < n; ++k) path_[order[k]] = k;
+  TRY(assign_in_parts(n, k_none, &visited_));
+  TRY(assign_in_parts(size_t{n} + 1, 0, &start_));
+  TRY(in_parts(*context_, n, [&](size_t k) { path_[order[k]] = static_cast<uint32_t>(k); }));
   TRY(permute_pattern(lower, path_.span(), Triangle::upper, &upper_));
   TRY(elimination_tree(upper_, &parent_));
   uint64_t entries = 0;
@@ -83,7 +86,7 @@ Status Ldl::analyse(const Csc& lower, Span<const uint32_t> order) {
     if (entries >= k_none) {
       return fail(Code::too_large, "the factor is too large for 32-bit indices");
     }
-    TRY(count_work(n - top + 1));
+    TRY(count_work(n - top + k_work_of_column));
   }
   starts_from_counts(start_.span());
   TRY(row_.resize(static_cast<size_t>(entries)));
@@ -110,7 +113,7 @@ Status Ldl::factor(const Csc& lower) {
     }
     double pivot = column_[k];
     column_[k] = 0.0;
-    size_t work = 1;
+    size_t work = k_work_of_column;
     for (uint32_t t = top; t < n; ++t) {
       const uint32_t j = pattern_[t];
       const double y = column_[j];
@@ -150,7 +153,7 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
       double* yi = y + size_t{row_[p]} * columns;
       for (uint32_t c = 0; c < columns; ++c) yi[c] -= value_[p] * yj[c];
     }
-    TRY(count_work(size_t{start_[j + 1] - start_[j]} * columns));
+    TRY(count_work(k_work_of_column + size_t{start_[j + 1] - start_[j]} * columns));
   }
   for (uint32_t j = n; j-- > 0;) {
     double* yj = y + size_t{j} * columns;
@@ -159,7 +162,7 @@ Status Ldl::solve(Span<double> x, uint32_t columns) {
       const double* yi = y + size_t{row_[p]} * columns;
       for (uint32_t c = 0; c < columns; ++c) yj[c] -= value_[p] * yi[c];
     }
-    TRY(count_work(size_t{start_[j + 1] - start_[j]} * columns));
+    TRY(count_work(k_work_of_column + size_t{start_[j + 1] - start_[j]} * columns));
   }
   return in_parts(*context_, n, [&](size_t k) {
     double* to = x.data() + size_t{order_[k]} * columns;
@@ -176,7 +179,7 @@ Status Ldl::inverse_diagonal(Span<double> diagonal) {
   const uint32_t n = static_cast<uint32_t>(order_.size());
   for (uint32_t j = n; j-- > 0;) {
     const uint32_t first = start_[j], end = start_[j + 1];
-    size_t work = 1;
+    size_t work = k_work_of_column;
     for (uint32_t p = first; p < end; ++p) {
       column_[row_[p]] = value_[p];
       sum_[row_[p]] = 0.0;

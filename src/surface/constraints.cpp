@@ -7,13 +7,12 @@ namespace wireskin {
 // Half the length of the curve edges at each vertex: how much of its curve a vertex stands for.
 static Status curve_shares(const Surface& surface, Array<double>* share) {
   TRY(assign_in_parts(surface.position.size(), 0.0, share));
-  for (size_t e = 0; e < surface.curve_edge.size(); e += 2) {
-    const uint32_t a = surface.curve_edge[e], b = surface.curve_edge[e + 1];
+  return in_parts(share->context(), surface.curve_edge_curve.size(), [&](size_t e) {
+    const uint32_t a = surface.curve_edge[2 * e], b = surface.curve_edge[2 * e + 1];
     const double half = 0.5 * length(surface.position[b] - surface.position[a]);
     (*share)[a] += half;
     (*share)[b] += half;
-  }
-  return {};
+  });
 }
 
 // In units of the spacing, and of the diagonal of the bounding box.
@@ -42,14 +41,14 @@ Status constrain_curves(const CurveSet& set, uint32_t curve_vertices, const Surf
   if (!any) return {};
   TRY(curve_shares(surface, &constraints->share));
   TRY(assign_in_parts(n, -1.0, &constraints->cutoff));
-  for (size_t e = 0; e < surface.curve_edge.size(); ++e) {
+  TRY(in_parts(context, surface.curve_edge.size(), [&](size_t e) {
     double& cutoff = constraints->cutoff[surface.curve_edge[e]];
     const uint32_t curve = surface.curve_edge_curve[e / 2];
     const bool sharp = !set.sharp.empty() && set.sharp[curve];  // these hold in any case
     const bool holds = sharp || set.soft[curve] < k_least_cutoff * surface.counts.spacing;
     const double own = holds ? 0.0 : set.soft[curve];
     if (cutoff < 0.0 || own < cutoff) cutoff = own;
-  }
+  }));
   return in_parts(context, n, [&](size_t v) {
     if (constraints->cutoff[v] < 0.0) constraints->cutoff[v] = 0.0;
     if (constraints->cutoff[v] > 0.0) constraints->held[v] = 0;

@@ -254,19 +254,23 @@ Status smooth_creased(Context& context, const Start& start, const Constraints& c
 Status measure_constraints(const CurveSet& set, Span<const Vec3> given, Surface* surface) {
   Context& context = surface->position.context();
   Array<Vec3> line(context);
+  Pace pace(context);
   double sum = 0.0;
   size_t edge = 0;
   for (uint32_t c = 0; c < set.closed.size(); ++c) {
+    TRY(pace.after());
     line.clear();
     for (; edge < surface->curve_edge_curve.size() && surface->curve_edge_curve[edge] == c;
          ++edge) {
+      TRY(pace.after());
       if (line.empty()) TRY(line.push(surface->position[surface->curve_edge[2 * edge]]));
       TRY(line.push(surface->position[surface->curve_edge[2 * edge + 1]]));
     }
     if (line.empty()) continue;  // a point, or a curve of patches that were left out
     const size_t first = set.start[c], count = set.start[c + 1] - first;
-    const curves::LineDistance distance =
-        curves::distance_to_line(given.part(first, count), line.span(), set.closed[c] != 0);
+    curves::LineDistance distance;
+    TRY(curves::distance_to_line(given.part(first, count), line.span(), set.closed[c] != 0, &pace,
+                                 &distance));
     sum += distance.sum_of_squares;
     if (distance.greatest > surface->counts.greatest_distance) {
       surface->counts.greatest_distance = distance.greatest;

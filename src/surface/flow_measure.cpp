@@ -1,5 +1,6 @@
 #include "surface/flow_measure.h"
 
+#include "base/in_parts.h"
 #include "num/minmax.h"
 
 namespace wireskin {
@@ -17,11 +18,13 @@ struct ArcPlace {
 static Status place_vertices(const flow::Flow& flow, Array<ArcPlace>* places) {
   const flow::Arcs& arcs = flow.arcs;
   const flow::Samples& samples = flow.samples;
-  TRY(places->assign(arcs.vertex.size(), ArcPlace{0, 0, 0}));
+  Pace pace(places->context());
+  TRY(assign_in_parts(arcs.vertex.size(), ArcPlace{0, 0, 0}, places));
   for (uint32_t a = 0; a < arcs.size(); ++a) {
     const uint32_t first = samples.start[a], last = samples.start[a + 1] - 1;
     uint32_t at = first;
     for (uint32_t i = arcs.start[a]; i < arcs.start[a + 1]; ++i) {
+      TRY(pace.after());
       while (at + 1 < last && samples.along[at + 1] <= arcs.along[i]) ++at;
       (*places)[arcs.path[i]] = {first, last, at};
     }
@@ -42,9 +45,9 @@ Status measure_given(const flow::Flow& flow, Span<const Vec3> given, Span<const 
   Array<ArcPlace> places(surface->position.context());
   TRY(place_vertices(flow, &places));
   double greatest = 0.0, sum = 0.0;
-  for (size_t s = 0; s < given.size(); ++s) {
+  TRY(in_parts(places.context(), given.size(), [&](size_t s) {
     const ArcPlace& place = places[flow.arcs.sample_vertex[s]];
-    if (place.first == place.last) continue;
+    if (place.first == place.last) return;
     // Noise may have brought the sample beside a neighbour of its edge.
     const uint32_t low = place.before > place.first ? place.before - 1 : place.first;
     const uint32_t high = place.before + 2 < place.last ? place.before + 2 : place.last;
@@ -56,7 +59,7 @@ Status measure_given(const flow::Flow& flow, Span<const Vec3> given, Span<const 
     }
     greatest = larger(greatest, least);
     sum += least;
-  }
+  }));
   surface->counts.greatest_distance = std::sqrt(greatest);
   if (!given.empty())
     surface->counts.mean_square_distance = sum / static_cast<double>(given.size());

@@ -1,5 +1,6 @@
 #include "surface/flow_noise.h"
 
+#include "base/in_parts.h"
 #include "flow/chains.h"
 
 namespace wireskin {
@@ -20,14 +21,15 @@ struct ChainSamples {
 
 // Vertices that occur in several places get numbers of their own.
 static Status number_shared(uint32_t vertices, const flow::Chains& chains, Array<uint32_t>* node) {
-  Array<uint32_t> uses(node->context());
-  TRY(uses.assign(vertices, 0));
-  TRY(node->resize(chains.vertex.size()));
-  for (const uint32_t v : chains.vertex) ++uses[v];
+  Context& context = node->context();
+  Array<uint32_t> uses(context);
+  const size_t n = chains.vertex.size();
+  TRY(assign_in_parts(vertices, 0, &uses));
+  TRY(node->resize(n));
+  TRY(in_parts(context, n, [&](size_t i) { ++uses[chains.vertex[i]]; }));
   uint32_t numbers = 0;
-  for (uint32_t& u : uses) u = u > 1 ? numbers++ : k_none;
-  for (size_t i = 0; i < node->size(); ++i) (*node)[i] = uses[chains.vertex[i]];
-  return {};
+  TRY(in_parts(context, vertices, [&](size_t v) { uses[v] = uses[v] > 1 ? numbers++ : k_none; }));
+  return in_parts(context, n, [&](size_t i) { (*node)[i] = uses[chains.vertex[i]]; });
 }
 
 // Without normals a constant field, which has no noise, stands for them.
@@ -35,14 +37,19 @@ static Status gather_places(const flow::Arcs& arcs, const flow::Chains& chains,
                             Span<const Vec3> normal, ChainSamples* places) {
   const size_t n = chains.vertex.size();
   Array<Vec3> of_vertex(places->normal.context());
+  Pace pace(places->normal.context());
   TRY(number_shared(static_cast<uint32_t>(arcs.vertex.size()), chains, &places->node));
   TRY(places->kept.resize(n));
   TRY(places->position.resize(n));
   TRY(places->normal.resize(n));
-  TRY(of_vertex.assign(arcs.vertex.size(), Vec3{0, 0, 1}));
-  for (size_t s = normal.size(); s-- > 0;) of_vertex[arcs.sample_vertex[s]] = normal[s];
+  TRY(assign_in_parts(arcs.vertex.size(), Vec3{0, 0, 1}, &of_vertex));
+  for (size_t s = normal.size(); s-- > 0;) {
+    TRY(pace.after());
+    of_vertex[arcs.sample_vertex[s]] = normal[s];
+  }
   for (uint32_t c = 0; c < chains.size(); ++c) {
     for (uint32_t i = chains.start[c]; i < chains.start[c + 1]; ++i) {
+      TRY(pace.after());
       places->kept[i] = i - chains.start[c];
       places->position[i] = arcs.vertex[chains.vertex[i]];
       places->normal[i] = of_vertex[chains.vertex[i]];
@@ -51,27 +58,27 @@ static Status gather_places(const flow::Arcs& arcs, const flow::Chains& chains,
   return {};
 }
 
-static double greatest_move(const flow::Arcs& arcs, const flow::Chains& chains,
-                            Span<const Vec3> position) {
-  double greatest = 0.0;
-  for (size_t i = 0; i < position.size(); ++i) {
+static Status measure_move(Context& context, const flow::Arcs& arcs, const flow::Chains& chains,
+                           Span<const Vec3> position, double* greatest) {
+  *greatest = 0.0;
+  return in_parts(context, position.size(), [&](size_t i) {
     const double move = length(position[i] - arcs.vertex[chains.vertex[i]]);
-    if (move > greatest) greatest = move;
-  }
-  return greatest;
+    if (move > *greatest) *greatest = move;
+  });
 }
 
 // All samples of a vertex that moved get its new place.
 static Status write_samples(const flow::Arcs& arcs, const flow::Chains& chains,
                             Span<const Vec3> places, Span<Vec3> samples) {
   Array<uint32_t> place(chains.vertex.context());
-  TRY(place.assign(arcs.vertex.size(), k_none));
-  for (uint32_t i = 0; i < chains.vertex.size(); ++i) place[chains.vertex[i]] = i;
-  for (size_t s = 0; s < samples.size(); ++s) {
+  Context& context = place.context();
+  TRY(assign_in_parts(arcs.vertex.size(), k_none, &place));
+  TRY(in_parts(context, chains.vertex.size(),
+               [&](size_t i) { place[chains.vertex[i]] = static_cast<uint32_t>(i); }));
+  return in_parts(context, samples.size(), [&](size_t s) {
     const uint32_t i = place[arcs.sample_vertex[s]];
     if (i != k_none) samples[s] = places[i];
-  }
-  return {};
+  });
 }
 
 Status smooth_polylines(Context& context, const flow::Polylines& polylines,
@@ -94,7 +101,8 @@ Status smooth_polylines(Context& context, const flow::Polylines& polylines,
   inside.negligible = k_no_noise * arcs.diagonal;
   inside.negligible_normal = k_no_noise_of_normals;
   TRY(network::smooth_samples(context, kept, inside, report));
-  const double moved = greatest_move(arcs, chains, places.position.span());
+  double moved = 0.0;
+  TRY(measure_move(context, arcs, chains, places.position.span(), &moved));
   if (moved > (found ? k_no_noise * arcs.diagonal : 0.0)) {
     TRY(write_samples(arcs, chains, places.position.span(), position));
   }

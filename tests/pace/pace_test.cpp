@@ -87,6 +87,48 @@ std::vector<double> stretches_of_connecting(const Scene& scene, bool orient, std
   return pace.stretches;
 }
 
+// The network, and its surface.
+std::vector<double> stretches_of_sensors(const std::vector<wsk_sensor_curve>& curves,
+                                         std::string* size) {
+  wsk_options options;
+  wsk_options_init(&options, sizeof options);
+  options.method = WSK_METHOD_STANKO;
+  options.spacing = 0.1;
+  Pace pace;
+  pace.install(&options);
+  wsk_network* network = nullptr;
+  REQUIRE(wsk_integrate(curves.data(), curves.size(), &options, &network, nullptr) == WSK_OK);
+  wsk_network_view view;
+  wsk_network_get_view(network, &view, sizeof view);
+  wsk_surface* surface = nullptr;
+  REQUIRE(wsk_build(view.curves, view.curve_count, &options, &surface, nullptr) == WSK_OK);
+  Pace::ask(&pace);
+  *size = std::to_string(view.sample_count) + " samples";
+  wsk_surface_free(surface);
+  wsk_network_free(network);
+  return pace.stretches;
+}
+
+std::vector<double> stretches_of_flow(const std::vector<wsk_curve>& curves, std::string* size) {
+  wsk_options options;
+  wsk_options_init(&options, sizeof options);
+  wsk_flow_options how;
+  wsk_flow_options_init(&how, sizeof how);
+  Pace pace;
+  pace.install(&options);
+  wsk_flow* flow = nullptr;
+  REQUIRE(wsk_flow_build(curves.data(), curves.size(), &options, &how, &flow, nullptr) == WSK_OK);
+  wsk_surface* surface = nullptr;
+  REQUIRE(wsk_flow_surface(flow, &options, &how, &surface, nullptr) == WSK_OK);
+  Pace::ask(&pace);
+  wsk_surface_view view;
+  wsk_surface_get_view(surface, &view, sizeof view);
+  *size = std::to_string(view.vertex_count) + " vertices";
+  wsk_surface_free(surface);
+  wsk_flow_free(flow);
+  return pace.stretches;
+}
+
 // A point of a shallow bowl, with its normal or without.
 void add_sample(double x, double y, bool with_normal, scenes::Curve* curve) {
   const double scale = with_normal ? 1.0 / std::sqrt(x * x + y * y + 1.0) : 0.0;
@@ -155,7 +197,8 @@ TEST_CASE("a checkpoint is never far: raw curves of half a million samples that 
               [&](std::string* size) { return stretches_of_connecting(scene, false, size); });
 }
 
-TEST_CASE("a checkpoint is never far: one raw curve of nearly a million samples, crossed by a few") {
+TEST_CASE(
+    "a checkpoint is never far: one raw curve of nearly a million samples, crossed by a few") {
   constexpr int k_turns = 60, k_samples = 900000, k_rays = 20, k_samples_of_ray = 500;
   const double round = 2.0 * std::acos(-1.0);
   Scene scene;
@@ -189,4 +232,81 @@ TEST_CASE("a checkpoint is never far: raw segments of two samples, chained to on
   }
   check_least("segments",
               [&](std::string* size) { return stretches_of_connecting(scene, true, size); });
+}
+
+TEST_CASE("a checkpoint is never far: a million samples of sensor curves, and their surface") {
+  constexpr int k_circles = 10, k_samples = 100000;  // round a sphere, through its poles
+  const double round = 2.0 * std::acos(-1.0);
+  std::vector<scenes::SensorCurve> sensors(k_circles);
+  std::vector<wsk_sensor_curve> curves;
+  for (int c = 0; c < k_circles; ++c) {
+    scenes::SensorCurve& sensor = sensors[c];
+    const double turn = 0.5 * round * c / k_circles;
+    const auto add = [turn](double along, std::vector<double>* to) {
+      to->insert(to->end(), {std::sin(along) * std::cos(turn), std::sin(along) * std::sin(turn),
+                             std::cos(along)});
+    };
+    for (int i = 0; i <= k_samples; ++i) {
+      const double arc = round * i / k_samples;
+      sensor.arc_lengths.push_back(arc);
+      add(arc + 0.25 * round, &sensor.tangents);
+      add(arc, &sensor.rest.normals);
+      const bool pole = i % (k_samples / 2) == 0;
+      sensor.rest.nodes.push_back(pole ? static_cast<uint32_t>(i % k_samples) : WSK_NONE);
+    }
+    wsk_sensor_curve curve = {};
+    curve.sample_count = sensor.arc_lengths.size();
+    curve.arc_lengths = sensor.arc_lengths.data();
+    curve.tangents = sensor.tangents.data();
+    curve.normals = sensor.rest.normals.data();
+    curve.nodes = sensor.rest.nodes.data();
+    curve.closed = 1;
+    curves.push_back(curve);
+  }
+  check_least("sensors", [&](std::string* size) { return stretches_of_sensors(curves, size); });
+}
+
+TEST_CASE("a checkpoint is never far: a mesh of the caller's with sixty thousand vertices") {
+  constexpr int k_cells = 250, k_between = 50;  // of held lines
+  Scene scene;
+  scene.name = "mesh";
+  scene.way = scenes::Way::smooth_mesh;
+  for (int j = 0; j <= k_cells; ++j) {
+    for (int i = 0; i <= k_cells; ++i) {
+      const double u = 2.0 * i / k_cells - 1.0, v = 2.0 * j / k_cells - 1.0;
+      const bool held = j % k_cells == 0 || i % k_between == 0;
+      const double height = 0.5 * (u * u - v * v);
+      scene.positions.insert(scene.positions.end(), {u, v, held ? height : 0.9 * height});
+      scene.normals.insert(scene.normals.end(), {-u, v, 1.0});
+      scene.constrained.push_back(held);
+      if (i == k_cells || j == k_cells) continue;
+      const uint32_t a = static_cast<uint32_t>(j * (k_cells + 1) + i), above = a + k_cells + 1;
+      scene.triangles.insert(scene.triangles.end(), {a, a + 1, above + 1, a, above + 1, above});
+    }
+  }
+  for (const wsk_method method : {WSK_METHOD_STANKO, WSK_METHOD_FAIR}) check_pace(scene, method);
+}
+
+TEST_CASE("a checkpoint is never far: a million samples of curves alone") {
+  constexpr int k_levels = 5, k_samples = 70000;  // circles of a sphere across each axis
+  const double round = 2.0 * std::acos(-1.0);
+  std::vector<std::vector<double>> positions(3 * k_levels);
+  std::vector<wsk_curve> curves;
+  for (int c = 0; c < 3 * k_levels; ++c) {
+    const double height = -0.9 + 1.8 * (c / 3 + 0.5) / k_levels;
+    const double radius = std::sqrt(1.0 - height * height);
+    for (int i = 0; i < k_samples; ++i) {
+      double p[3];
+      p[c % 3] = height;
+      p[(c + 1) % 3] = radius * std::cos(round * i / k_samples);
+      p[(c + 2) % 3] = radius * std::sin(round * i / k_samples);
+      positions[c].insert(positions[c].end(), p, p + 3);
+    }
+    wsk_curve curve = {};
+    curve.sample_count = k_samples;
+    curve.positions = positions[c].data();
+    curve.closed = 1;
+    curves.push_back(curve);
+  }
+  check_least("circles", [&](std::string* size) { return stretches_of_flow(curves, size); });
 }

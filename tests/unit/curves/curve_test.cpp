@@ -26,7 +26,11 @@ struct Polyline {
     node.push_back(number);
   }
   Samples samples() const { return {view(position), view(normal), view(node), closed}; }
-  Status check() const { return check_samples(samples()); }
+  Status check() const {
+    Heap heap;
+    wireskin::Pace pace(heap.context);
+    return check_samples(samples(), &pace);
+  }
 };
 
 Polyline line(const std::vector<double>& x) {

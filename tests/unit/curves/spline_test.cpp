@@ -19,7 +19,8 @@ struct Fitted {
 
   Fitted(std::vector<double> k, std::vector<Vec3> v, SplineEnd end, Vec3 first = {}, Vec3 last = {})
       : knots(std::move(k)), values(std::move(v)), moments(values.size(), Vec3{9, 9, 9}) {
-    must(fit_spline(view(knots), view(values), end, first, last, span(moments), &scratch));
+    wireskin::Pace pace(heap.context);
+    must(fit_spline(view(knots), view(values), end, first, last, &pace, span(moments), &scratch));
   }
   Spline spline() const { return {view(knots), view(values), view(moments)}; }
   Vec3 at(double t) const { return spline_value(spline(), interval(t), t); }
@@ -194,9 +195,11 @@ TEST_CASE("spline: out of memory is a status") {
   Heap heap;
   heap.allocator.fail_at = 0;
   SplineScratch scratch(heap.context);
+  wireskin::Pace pace(heap.context);
   const std::vector<double> knots = {0, 1};
   const std::vector<Vec3> values(2);
   std::vector<Vec3> moments(2);
-  CHECK(fit_spline(view(knots), view(values), SplineEnd::natural, {}, {}, span(moments), &scratch)
+  CHECK(fit_spline(view(knots), view(values), SplineEnd::natural, {}, {}, &pace, span(moments),
+                   &scratch)
             .code == Code::out_of_memory);
 }

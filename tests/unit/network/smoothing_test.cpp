@@ -584,9 +584,10 @@ TEST_CASE("thinning and fitting one after the other is adding a curve") {
   const wireskin::curves::Samples samples = {view(scene.position), view(scene.normal),
                                              view(scene.node), true};
   Array<uint32_t> kept(heap.context);
+  wireskin::Pace pace(heap.context);
   must(wireskin::curves::add_curve(samples, &whole));
-  must(wireskin::curves::thin(samples, &kept));
-  must(wireskin::curves::fit_curve(samples, kept.span(), &parts));
+  must(wireskin::curves::thin(samples, &pace, &kept));
+  must(wireskin::curves::fit_curve(samples, kept.span(), &pace, &parts));
   CHECK(kept[0] == 17);
   CHECK(kept.size() < 50);
   REQUIRE(whole.knot.size() == kept.size() + 1);
@@ -691,6 +692,7 @@ Scene read_net(const std::string& path, double noise, double noise_normal, uint3
 
 Scene thinned(Scene scene) {
   Heap heap;
+  wireskin::Pace pace(heap.context);
   scene.kept.clear();
   scene.kept_start = {0};
   for (size_t c = 0; c < scene.closed.size(); ++c) {
@@ -699,7 +701,7 @@ Scene thinned(Scene scene) {
     must(wireskin::curves::thin(
         {view(scene.position).part(first, n), view(scene.normal).part(first, n),
          view(scene.node).part(first, n), scene.closed[c] != 0},
-        &kept));
+        &pace, &kept));
     scene.kept.insert(scene.kept.end(), kept.begin(), kept.end());
     scene.kept_start.push_back(static_cast<uint32_t>(scene.kept.size()));
   }
