@@ -4675,6 +4675,11 @@ inline void sort_distinct(const uint32_t* values, uint32_t count, uint32_t* to) 
 
 namespace wireskin {
 
+/* One order for all who sort numbers, so that the code is there once. */
+struct Ascending {
+  bool operator()(double a, double b) const { return a < b; }
+};
+
 template <typename T, typename Less>
 Status sort_in_parts(Context& context, Span<T> values, const Less& less) {
   struct Run {
@@ -9121,7 +9126,7 @@ Status Roughness::build(const KeptSamples& samples, bool filtered) {
   TRY(in_parts(*context_, gaps.size(), [&](size_t k) {
     if (gaps[k] > 0.0) sorted.push_reserved(gaps[k]);
   }));
-  TRY(sort_in_parts(*context_, sorted.span(), [](double a, double b) { return a < b; }));
+  TRY(sort_in_parts(*context_, sorted.span(), Ascending()));
   spacing_ = sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
   TRY(list_rows(samples, gaps.span()));
   return rows() > 0 ? prepare_system() : Status{};
@@ -18313,9 +18318,9 @@ namespace wireskin::network {
 
 /* Every index names itself. */
 static Status count_up_in_parts(Array<uint32_t>* indices) {
-  return in_parts<k_light_steps_per_checkpoint>(
-      indices->context(), indices->size(),
-      [&](size_t i) { (*indices)[i] = static_cast<uint32_t>(i); });
+  return in_parts<k_light_steps_per_checkpoint>(indices->context(), indices->size(), [&](size_t i) {
+    (*indices)[i] = static_cast<uint32_t>(i);
+  });
 }
 
 Status DisjointSets::reset(uint32_t size) {
@@ -18473,7 +18478,7 @@ Status automatic_tolerance(const Wires& wires, double diagonal, double* toleranc
       if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
     }
   }
-  TRY(sort_in_parts(context, lengths.span(), [](double a, double b) { return a < b; }));
+  TRY(sort_in_parts(context, lengths.span(), Ascending()));
   const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
   *tolerance = median < 0.01 * diagonal ? median : 0.01 * diagonal;
   return {};
@@ -21284,7 +21289,7 @@ static Status noise_of(Span<const Turn> turns, Array<double>* moves, double* sig
   Context& context = moves->context();
   TRY(moves->resize(turns.size()));
   TRY(in_parts(context, turns.size(), [&](size_t i) { (*moves)[i] = turns[i].narrow.move; }));
-  TRY(sort_in_parts(context, moves->span(), [](double a, double b) { return a < b; }));
+  TRY(sort_in_parts(context, moves->span(), Ascending()));
   *sigma = (*moves)[turns.size() / 4] / k_quartile_of_rayleigh;
   return {};
 }

@@ -8,6 +8,11 @@
 
 namespace wireskin {
 
+// One order for all who sort numbers, so that the code is there once.
+struct Ascending {
+  bool operator()(double a, double b) const { return a < b; }
+};
+
 template <typename T, typename Less>
 Status sort_in_parts(Context& context, Span<T> values, const Less& less) {
   struct Run {

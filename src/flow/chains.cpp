@@ -196,7 +196,7 @@ static Status noise_of(Span<const Turn> turns, Array<double>* moves, double* sig
   Context& context = moves->context();
   TRY(moves->resize(turns.size()));
   TRY(in_parts(context, turns.size(), [&](size_t i) { (*moves)[i] = turns[i].narrow.move; }));
-  TRY(sort_in_parts(context, moves->span(), [](double a, double b) { return a < b; }));
+  TRY(sort_in_parts(context, moves->span(), Ascending()));
   *sigma = (*moves)[turns.size() / 4] / k_quartile_of_rayleigh;
   return {};
 }

@@ -222,7 +222,7 @@ Status Roughness::build(const KeptSamples& samples, bool filtered) {
   TRY(in_parts(*context_, gaps.size(), [&](size_t k) {
     if (gaps[k] > 0.0) sorted.push_reserved(gaps[k]);
   }));
-  TRY(sort_in_parts(*context_, sorted.span(), [](double a, double b) { return a < b; }));
+  TRY(sort_in_parts(*context_, sorted.span(), Ascending()));
   spacing_ = sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
   TRY(list_rows(samples, gaps.span()));
   return rows() > 0 ? prepare_system() : Status{};

@@ -7,9 +7,9 @@ namespace wireskin::network {
 
 // Every index names itself.
 static Status count_up_in_parts(Array<uint32_t>* indices) {
-  return in_parts<k_light_steps_per_checkpoint>(
-      indices->context(), indices->size(),
-      [&](size_t i) { (*indices)[i] = static_cast<uint32_t>(i); });
+  return in_parts<k_light_steps_per_checkpoint>(indices->context(), indices->size(), [&](size_t i) {
+    (*indices)[i] = static_cast<uint32_t>(i);
+  });
 }
 
 Status DisjointSets::reset(uint32_t size) {
@@ -167,7 +167,7 @@ Status automatic_tolerance(const Wires& wires, double diagonal, double* toleranc
       if (j != k_none) lengths.push_reserved(length(wires.position[j] - wires.position[i]));
     }
   }
-  TRY(sort_in_parts(context, lengths.span(), [](double a, double b) { return a < b; }));
+  TRY(sort_in_parts(context, lengths.span(), Ascending()));
   const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
   *tolerance = median < 0.01 * diagonal ? median : 0.01 * diagonal;
   return {};
